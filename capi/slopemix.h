@@ -1,0 +1,402 @@
+/* slopemix: how a measured material looks on a surface that is rough below the pixel.
+ *
+ * Conventions
+ *   Directions    unit vectors that point away from the surface; wi to the light, wo to the viewer; frame x, y, z
+ *                 with z the macro-surface normal, x along elevation (e_theta), y along azimuth (e_phi).
+ *   Slopes        of a facet with normal m: (-m.x / m.z, -m.y / m.z).
+ *   Roughness     alpha = sqrt(2) times the standard deviation of the slope. Variances add; alphas do not.
+ *   Radiometry    linear RGB; f in 1/sr; "fcos" means f times the cosine of wi; a pixel is the radiance towards the
+ *                 viewer under a light of unit perpendicular irradiance (a white Lambertian facing it shows 1/pi).
+ *   Angles        radians.
+ *   Images        row 0 at the top, left to right, RGBA float32; alpha is 1 on the surface and 0 off it.
+ *
+ * Handles are reference counted: smx_*_create gives one reference, smx_*_retain adds one, smx_*_release drops one
+ * (NULL is legal). A child keeps its parents alive, so any order of release is legal.
+ *
+ * Errors. A function that can fail returns smx_status. When it fails, its outputs are untouched and smx_last_error()
+ * says, for the calling thread, what was wrong, with the value and the legal range. The library never prints or exits.
+ *
+ * Threads. Any function may be called from any thread. Immutable handles (brdf, density, material) may be shared
+ * freely; calls that use one context run one after another; an image may be read by many threads or changed by one.
+ *
+ * Options are structs that start with their own size: initialise with the macro of the same name in capitals
+ * (smx_scene s = SMX_SCENE_INIT;), change fields, pass the address. NULL in place of options means the defaults.
+ */
+#ifndef SLOPEMIX_H
+#define SLOPEMIX_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "slopemix_version.h"
+
+#if defined(_WIN32)
+#  define SMX_API __declspec(dllimport)
+#elif defined(SMX_BUILDING_LIBRARY)
+#  define SMX_API __attribute__((visibility("default")))
+#else
+#  define SMX_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------------------------------------- status and version */
+
+typedef enum smx_status {
+    SMX_OK = 0,
+    SMX_INVALID_ARGUMENT = 1,  /* a null pointer, a wrong size field, a value out of its range */
+    SMX_CANNOT_READ = 2,       /* a file is missing or unreadable */
+    SMX_CANNOT_WRITE = 3,      /* an output cannot be made; what was there before is still there */
+    SMX_BAD_FORMAT = 4,        /* a file's content is not what its format demands */
+    SMX_NO_DEVICE = 5,         /* no OpenCL device, or none that matches */
+    SMX_KERNEL_BUILD = 6,      /* the device's compiler refused a kernel; its log is in the message */
+    SMX_DEVICE_ERROR = 7,      /* an OpenCL call failed */
+    SMX_OUT_OF_MEMORY = 8,     /* host or device memory */
+    SMX_NO_SOLUTION = 9,       /* the data have no answer: a table of zeros, a fit that cannot start */
+    SMX_CANCELLED = 10,        /* a progress callback asked to stop */
+    SMX_INTERNAL = 11          /* a fault of the library itself */
+} smx_status;
+
+/* Name ("SMX_BAD_FORMAT") and sentence of a status; "unknown status" for a value that is none. Static strings. */
+SMX_API const char *smx_status_name(smx_status status);
+SMX_API const char *smx_status_text(smx_status status);
+
+/* What the last failing call of this thread had to say; "" if none failed. Valid until the thread's next call. */
+SMX_API const char *smx_last_error(void);
+
+/* Version of the library in use, "MAJOR.MINOR.PATCH"; SMX_VERSION_STRING is the header's. */
+SMX_API const char *smx_version(void);
+
+/* Called now and then with the share done, 0..1, from the thread that made the call; nonzero stops the work, and the
+ * call returns SMX_CANCELLED. */
+typedef int (*smx_progress_fn)(void *user, double share);
+
+/* ------------------------------------------------------------------------------------------------ context and devices */
+
+typedef struct smx_device_info {
+    size_t size;
+    uint32_t index; /* position over all platforms; what smx_context_options.device takes as a number */
+    char name[128];
+    char vendor[128];
+    char version[128]; /* OpenCL version of the device */
+    char driver[128];
+    char platform[128];
+    char platform_version[128];
+    uint32_t compute_units;
+    uint64_t global_memory; /* bytes */
+    uint32_t vector_width;  /* evaluations per work-item that slopemix uses on it: 1, 4, 8 or 16 */
+} smx_device_info;
+#define SMX_DEVICE_INFO_INIT {sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0}
+
+/* Number of OpenCL devices over all platforms; 0 is not an error.
+ * Statuses: INVALID_ARGUMENT (count is null). */
+SMX_API smx_status smx_device_count(uint32_t *count);
+
+/* Facts about device `index`, 0 <= index < count.
+ * Statuses: INVALID_ARGUMENT, NO_DEVICE (no such index). */
+SMX_API smx_status smx_device_get_info(uint32_t index, smx_device_info *info);
+
+typedef struct smx_context_options {
+    size_t size;
+    const char *device;    /* NULL: first CPU, else first device; digits: an index; else part of a name, any case */
+    void *cl_context;      /* the caller's cl_context and cl_command_queue, both or neither; retained, and `device` */
+    void *cl_queue;        /*   must then be NULL */
+    uint32_t vector_width; /* 0: from the device; else 1, 4, 8 or 16 evaluations per work-item */
+} smx_context_options;
+#define SMX_CONTEXT_OPTIONS_INIT {sizeof(smx_context_options), NULL, NULL, NULL, 0}
+
+/* A device, its queue and the kernels built for it. Kernels are built on first use and kept.
+ * Statuses: INVALID_ARGUMENT, NO_DEVICE, DEVICE_ERROR. */
+typedef struct smx_context_s *smx_context;
+SMX_API smx_status smx_context_create(const smx_context_options *options, smx_context *context);
+SMX_API smx_status smx_context_retain(smx_context context);
+SMX_API void smx_context_release(smx_context context);
+SMX_API smx_status smx_context_get_info(smx_context context, smx_device_info *info);
+
+/* ---------------------------------------------------------------------------------------------------- measured BRDF */
+
+typedef enum smx_lookup {
+    SMX_LOOKUP_LINEAR = 0, /* values at the nodes (k/90)^2 pi/2, k pi/180, k pi/180; linear in (sqrt theta_h, ...) */
+    SMX_LOOKUP_NEAREST = 1 /* the cell that holds the angles, as in the lookup code that came with MERL */
+} smx_lookup;
+
+/* An isotropic measured BRDF on the MERL grid (Matusik et al. 2003): [rgb][theta_h][theta_d][phi_d]. Immutable. */
+typedef struct smx_brdf_s *smx_brdf;
+
+typedef struct smx_brdf_info {
+    size_t size;
+    char name[128];           /* file name without its ending, or the built-in's name */
+    char source[512];         /* path, or "builtin:NAME" */
+    char sha256[65];          /* of the table's bytes as stored in a file, in hexadecimal */
+    uint32_t theta_h, theta_d, phi_d;
+    uint64_t cells;           /* theta_h * theta_d * phi_d */
+    uint64_t invalid_cells;   /* with a negative channel */
+    uint64_t filled_cells;    /* of them, those above the horizon: holes in the measurement */
+} smx_brdf_info;
+#define SMX_BRDF_INFO_INIT {sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0}
+
+/* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
+ * sharp white gloss), "builtin:conductor" (one rough metal lobe). Cells with a negative channel are invalid; they are
+ * filled from their nearest valid neighbours so that interpolation never mixes them in.
+ * Statuses: INVALID_ARGUMENT (also a built-in that does not exist), CANNOT_READ, BAD_FORMAT (dimensions, length, a NaN
+ * or an infinity, no valid cell), OUT_OF_MEMORY. */
+SMX_API smx_status smx_brdf_open(const char *path_or_builtin, smx_brdf *brdf);
+
+/* The same from memory. values: [3][90][90][phi_d] in 1/sr (not the file's scaled units), negative = invalid;
+ * phi_d: 180 or 360; name: shown in reports. The values are copied.
+ * Statuses: INVALID_ARGUMENT, BAD_FORMAT (a NaN or an infinity, no valid cell), OUT_OF_MEMORY. */
+SMX_API smx_status smx_brdf_create(const char *name, uint32_t phi_d, const double *values, smx_brdf *brdf);
+SMX_API smx_status smx_brdf_retain(smx_brdf brdf);
+SMX_API void smx_brdf_release(smx_brdf brdf);
+SMX_API smx_status smx_brdf_get_info(smx_brdf brdf, smx_brdf_info *info);
+
+/* Copies the table, holes filled: [3][theta_h][theta_d][phi_d] in 1/sr; `count` must be its number of values.
+ * Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_brdf_get_values(smx_brdf brdf, double *values, size_t count);
+
+/* Writes a MERL `.binary`; cells that were invalid hold -1 again. Atomic: the file is whole or untouched.
+ * Statuses: INVALID_ARGUMENT, CANNOT_WRITE. */
+SMX_API smx_status smx_brdf_write(smx_brdf brdf, const char *path);
+
+/* ------------------------------------------------------------------------------------------------- slope density */
+
+/* How masking and shadowing relate at wi = wo in the table, for the inversion's kernel. */
+typedef enum smx_masking_kernel {
+    SMX_MASKING_COINCIDES = 0, /* G2(o,o) = G1(o): real surfaces (Dupuy et al. 2015, section 3) */
+    SMX_MASKING_CORRELATED = 1 /* G2(o,o) of height-correlated Smith: tables made with that formula */
+} smx_masking_kernel;
+
+typedef struct smx_inversion_options {
+    size_t size;
+    smx_masking_kernel masking_kernel;
+    double tolerance;        /* stop when the density changes by less than this (relative L1), > 0 */
+    uint32_t max_iterations; /* 1..100000; reaching it is reported, not an error */
+} smx_inversion_options;
+#define SMX_INVERSION_OPTIONS_INIT {sizeof(smx_inversion_options), SMX_MASKING_COINCIDES, 1e-10, 1000}
+
+/* The radial slope density of a BRDF, by power iteration on its retro-reflection, and one Fresnel curve per channel
+ * (Dupuy, Heitz, Iehl, Poulin, Ostromoukhov: "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials
+ * with Power Iterations", EGSR 2015). Keeps the BRDF alive. Immutable. */
+typedef struct smx_density_s *smx_density;
+
+typedef struct smx_density_info {
+    size_t size;
+    uint32_t nodes;        /* of the slope density */
+    uint32_t fresnel_knots;/* theta_d = k pi/180, k = 0..knots-1 */
+    uint32_t iterations;
+    int converged;
+    double change;         /* relative L1 change of the last iteration */
+    double alpha;          /* sqrt of the mean squared slope: the one-lobe fit */
+} smx_density_info;
+#define SMX_DENSITY_INFO_INIT {sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0}
+
+/* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
+SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
+SMX_API smx_status smx_density_retain(smx_density density);
+SMX_API void smx_density_release(smx_density density);
+SMX_API smx_status smx_density_get_info(smx_density density, smx_density_info *info);
+
+/* The density on its nodes: slope (>= 0), p22 (density over the slope plane), mass (share of the nodes' rings, sums to
+ * 1). Each array holds `nodes` values; any may be NULL. Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_density_get_nodes(smx_density density, double *slope, double *p22, double *mass, size_t nodes);
+
+/* ------------------------------------------------------------------------------------------- mixture and material */
+
+#define SMX_MAX_LOBES 64
+
+typedef struct smx_lobe {
+    double weight; /* share of the mixture, > 0; the weights of a material sum to 1 */
+    double alpha;  /* 1e-4..1e4 */
+} smx_lobe;
+
+typedef struct smx_fit_options {
+    size_t size;
+    uint32_t lobes;          /* 1..SMX_MAX_LOBES; the fit may end with fewer where lobes merge or die */
+    double tolerance;        /* EM stops when the mean log likelihood gains less than this, > 0 */
+    uint32_t max_iterations; /* of EM, 1..1000000 */
+    int refine;              /* nonzero: least-squares refinement of weights and alphas (Ceres) after EM */
+} smx_fit_options;
+#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), 8, 1e-10, 20000, 1}
+
+typedef struct smx_fit_report {
+    size_t size;
+    uint32_t lobes;               /* in the material */
+    uint32_t inversion_iterations;
+    uint32_t em_iterations;
+    uint32_t refine_iterations;
+    double log_likelihood_em;     /* mean of log p22 of the mixture under the slope density, per unit mass */
+    double log_likelihood;        /* the same after the refinement */
+    double residual_em;           /* Hellinger distance of density and mixture, 0..1 */
+    double residual;              /* the same after the refinement */
+    double seconds;
+    char refine_message[256];     /* the solver's verdict; "" without refinement */
+} smx_fit_report;
+#define SMX_FIT_REPORT_INIT {sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, ""}
+
+/* A mixture of zero-mean isotropic Beckmann lobes under one Fresnel curve per channel (the thesis's `shared` model):
+ * f = F(theta_d) sum_k w_k D_k(wh) G2(wi, wo) / (4 cos_i cos_o). Lobes in ascending alpha. Immutable. */
+typedef struct smx_material_s *smx_material;
+
+typedef struct smx_material_info {
+    size_t size;
+    char name[128];
+    char source[512];
+    char sha256[65];     /* of the source table; "" for a material made from arrays */
+    char model[16];      /* "shared" */
+    uint32_t lobes;
+    uint32_t fresnel_knots;
+} smx_material_info;
+#define SMX_MATERIAL_INFO_INIT {sizeof(smx_material_info), "", "", "", "", 0, 0}
+
+/* Fits `lobes` lobes to a slope density: EM in log space, then Ceres. The density's Fresnel curves are taken over.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION, OUT_OF_MEMORY. */
+SMX_API smx_status smx_material_fit(smx_density density, const smx_fit_options *options, smx_material *material);
+
+/* From arrays: lobes [count] (weights are normalised to sum to 1), fresnel [3][knots] at theta_d = k pi/2/(knots-1)
+ * for k = 0..knots-1, values >= 0, knots >= 2. Statuses: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+SMX_API smx_status smx_material_create(const char *name, const smx_lobe *lobes, size_t count, const double *fresnel,
+                                       size_t knots, smx_material *material);
+SMX_API smx_status smx_material_retain(smx_material material);
+SMX_API void smx_material_release(smx_material material);
+SMX_API smx_status smx_material_get_info(smx_material material, smx_material_info *info);
+
+/* How the fit went; a material made from arrays has a report of zeros. Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_material_get_report(smx_material material, smx_fit_report *report);
+
+/* Copies the lobes; `count` must be info.lobes. Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_material_get_lobes(smx_material material, smx_lobe *lobes, size_t count);
+
+/* Copies the Fresnel curves [3][knots] at theta_d = k pi/2/(knots-1). `count` must be 3 * info.fresnel_knots.
+ * Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_material_get_fresnel(smx_material material, double *fresnel, size_t count);
+
+/* Material files are JSON, schema in docs/material-format.md. Saving is atomic. Loading refuses an unknown version, a
+ * missing or unknown key and a value of the wrong type or range, and names its path in the message.
+ * Statuses: INVALID_ARGUMENT, CANNOT_READ, CANNOT_WRITE, BAD_FORMAT. */
+SMX_API smx_status smx_material_load(const char *path, smx_material *material);
+SMX_API smx_status smx_material_save(smx_material material, const char *path);
+
+/* ----------------------------------------------------------------------------------------------- scene and rendering */
+
+/* The displaced surface X: a Gaussian density of slopes. */
+typedef struct smx_displacement {
+    double alpha_x, alpha_y;           /* finite, 0..1e4; 0 is legal in either or both */
+    double rho;                        /* correlation of the two slopes, -1 < rho < 1 */
+    double mean_slope_x, mean_slope_y; /* finite, -1e4..1e4 */
+} smx_displacement;
+
+typedef enum smx_masking {
+    SMX_G2_CORRELATED = 0, /* height-correlated Smith */
+    SMX_G2_SEPARABLE = 1   /* G1(wi) G1(wo) */
+} smx_masking;
+
+/* A unit sphere that fills the smaller side of the image, orthographic camera on +y looking along -y, right = +x,
+ * up = +z; a directional light in the plane z = 0. */
+typedef struct smx_scene {
+    size_t size;
+    uint32_t width, height; /* 1..16384 */
+    double light_phi;       /* finite; pi/2 is at the camera, 0 at the right, negative behind */
+    smx_displacement displacement;
+    smx_masking masking;
+} smx_scene;
+#define SMX_SCENE_INIT {sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED}
+
+typedef enum smx_sampler {
+    SMX_SAMPLER_GRID = 0 /* n x n jittered strata of X's slopes; n^2 strata along the one axis when one alpha is 0 */
+} smx_sampler;
+
+typedef struct smx_render_options {
+    size_t size;
+    smx_sampler sampler; /* these four: reference only */
+    uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid */
+    uint64_t seed;
+    smx_lookup lookup;
+    smx_progress_fn progress; /* or NULL */
+    void *progress_user;
+} smx_render_options;
+#define SMX_RENDER_OPTIONS_INIT {sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, NULL, NULL}
+
+typedef struct smx_render_report {
+    size_t size;
+    double seconds;         /* the whole call */
+    double kernel_seconds;  /* on the device, from OpenCL's events */
+    double build_seconds;   /* compiling kernels that were not built yet */
+    uint64_t evaluations;   /* of the integrand: pixels on the sphere times samples */
+} smx_render_report;
+#define SMX_RENDER_REPORT_INIT {sizeof(smx_render_report), 0.0, 0.0, 0.0, 0}
+
+typedef struct smx_image_s *smx_image;
+
+/* The mixture widened by X in closed form, one evaluation per pixel. `report` may be NULL.
+ * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED. */
+SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
+                                       const smx_render_options *options, smx_image *image, smx_render_report *report);
+
+/* The statistical reference: the measured table integrated over X's facets. Same statuses. */
+SMX_API smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
+                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
+
+/* A picture of the displaced sphere, relief exaggerated and shaded so that its shape shows. Same statuses. */
+SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *scene, const smx_render_options *options,
+                                       smx_image *image, smx_render_report *report);
+
+/* f cos of the material widened by X, for `count` pairs of directions. wi, wo, fcos: [count][3], packed.
+ * 0 where either direction is not above the surface. Not normalised: directions must be unit vectors.
+ * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
+SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
+                                     smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
+
+/* ------------------------------------------------------------------------------------------------------------- images */
+
+/* rgba: [height][width][4], copied, or NULL for a black image with alpha 0. Sides 1..16384.
+ * Statuses: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+SMX_API smx_status smx_image_create(uint32_t width, uint32_t height, const float *rgba, smx_image *image);
+SMX_API smx_status smx_image_retain(smx_image image);
+SMX_API void smx_image_release(smx_image image);
+SMX_API smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t *height);
+
+/* The pixels, [height][width][4], owned by the image and valid while it lives; NULL for a null image. */
+SMX_API const float *smx_image_pixels(smx_image image);
+
+/* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered
+ * image carries its configuration under "slopemix.*".
+ * Statuses: INVALID_ARGUMENT. smx_image_get_attribute gives a borrowed string, NULL if there is none of that name. */
+SMX_API smx_status smx_image_set_attribute(smx_image image, const char *key, const char *value);
+SMX_API const char *smx_image_get_attribute(smx_image image, const char *key);
+
+/* EXR: channels R, G, B, A as float32, scan lines, linear. Reading takes any EXR that has R, G and B (alpha 1 where
+ * there is no A). Writing is atomic. Statuses: INVALID_ARGUMENT, CANNOT_READ, CANNOT_WRITE, BAD_FORMAT. */
+SMX_API smx_status smx_image_read_exr(const char *path, smx_image *image);
+SMX_API smx_status smx_image_write_exr(smx_image image, const char *path);
+
+/* 8-bit sRGB display pixels, [height][width][3]: sRGB transfer of clip(exposure * linear) over the blue background.
+ * exposure > 0. Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_image_display(smx_image image, double exposure, uint8_t *rgb, size_t count);
+
+/* The same as a PNG file. Statuses: INVALID_ARGUMENT, CANNOT_WRITE. */
+SMX_API smx_status smx_image_write_png(smx_image image, const char *path, double exposure);
+
+/* The q-quantile (0..1) of the R, G, B values of pixels with alpha > 0; 0 if there are none.
+ * Statuses: INVALID_ARGUMENT. */
+SMX_API smx_status smx_image_quantile(smx_image image, double q, double *value);
+
+typedef struct smx_comparison {
+    size_t size;
+    double relrmse;    /* sqrt(mean (a-b)^2) / sqrt(mean b^2); infinity where b is black and a is not, 0 where both are */
+    double rmse;
+    double max_error;  /* largest |a-b| */
+    double bias;       /* mean a / mean b; 1 where both are black, infinity where only b is */
+    uint64_t pixels;   /* compared: those with alpha > 0 in b */
+} smx_comparison;
+#define SMX_COMPARISON_INIT {sizeof(smx_comparison), 0.0, 0.0, 0.0, 0.0, 0}
+
+/* Errors of `image` against `reference` over the pixels with alpha > 0 in the reference and the three channels.
+ * Statuses: INVALID_ARGUMENT (also images of different size, or no pixel to compare). */
+SMX_API smx_status smx_image_compare(smx_image image, smx_image reference, smx_comparison *comparison);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
