@@ -1,0 +1,33 @@
+// The handles of slopemix.h.
+#pragma once
+
+#include "boundary.h"
+#include "brdf.h"
+#include "context.h"
+#include "image.h"
+#include "material.h"
+
+namespace smx {
+
+struct DensityOfBrdf {
+    std::shared_ptr<const Brdf> brdf;
+    SlopeDensity density;
+};
+
+}  // namespace smx
+
+struct smx_context_s : smx::Handle<smx::Context> {
+    using Handle::Handle;
+};
+struct smx_brdf_s : smx::Handle<const smx::Brdf> {
+    using Handle::Handle;
+};
+struct smx_density_s : smx::Handle<const smx::DensityOfBrdf> {
+    using Handle::Handle;
+};
+struct smx_material_s : smx::Handle<const smx::Material> {
+    using Handle::Handle;
+};
+struct smx_image_s : smx::Handle<smx::Image> {
+    using Handle::Handle;
+};

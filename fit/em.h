@@ -1,0 +1,27 @@
+// EM for a mixture of zero-mean isotropic Beckmann lobes on a weighted radial slope density. In s = slope^2 each lobe is
+// an exponential density of mean alpha^2, so both steps are exact (Dempster, Laird, Rubin 1977).
+#pragma once
+
+#include <vector>
+
+#include "material.h"
+
+namespace smx {
+
+struct EmResult {
+    std::vector<Lobe> lobes;  // canonical order; fewer than asked for where lobes died or merged
+    unsigned iterations = 0;
+    double log_likelihood = 0.0;
+};
+
+// Starts from quantiles of the mass; stops when the mean log likelihood gains less than `tolerance`, or after
+// max_iterations. Throws NoSolution for a density without mass.
+EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations);
+
+// Logarithm of the mixture's slope density at squared slope s, by log-sum-exp.
+double log_p22(const std::vector<Lobe> &lobes, double s);
+
+// Mean of log p22 of the mixture under the density, per unit mass.
+double mean_log_likelihood(const std::vector<Lobe> &lobes, const SlopeDensity &density);
+
+}  // namespace smx

@@ -1,0 +1,50 @@
+#include "fit_material.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "em.h"
+#include "error.h"
+#include "refine.h"
+
+namespace smx {
+
+void validate(const FitOptions &o) {
+    require(o.lobes >= 1 && o.lobes <= max_lobes, "lobes is ", o.lobes, "; it must be 1..", max_lobes);
+    require(o.tolerance > 0.0 && std::isfinite(o.tolerance), "tolerance is ", o.tolerance, "; it must be above 0");
+    require(o.max_iterations >= 1 && o.max_iterations <= 1000000, "max_iterations is ", o.max_iterations,
+            "; it must be 1..1000000");
+}
+
+Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options) {
+    validate(options);
+    const auto start = std::chrono::steady_clock::now();
+    Material m;
+    m.name = brdf.name();
+    m.source = brdf.source();
+    m.sha256 = brdf.sha256();
+    m.fresnel = density.fresnel;
+    m.report.inversion_iterations = density.iterations;
+
+    // Maximise the likelihood.
+    const EmResult em = fit_em(density, options.lobes, options.tolerance, options.max_iterations);
+    m.lobes = em.lobes;
+    m.report.em_iterations = em.iterations;
+    m.report.log_likelihood = m.report.log_likelihood_em = em.log_likelihood;
+    m.report.residual = m.report.residual_em = hellinger(m.lobes, density);
+
+    // Refine by least squares.
+    if (options.refine) {
+        const RefineResult refined = refine(em.lobes, density);
+        m.lobes = refined.lobes;
+        m.report.refine_iterations = refined.iterations;
+        m.report.refine_message = refined.message;
+        m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
+        m.report.residual = hellinger(m.lobes, density);
+    }
+    m.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    validate(m);
+    return m;
+}
+
+}  // namespace smx

@@ -1,0 +1,21 @@
+// The fit, from measured table to material: inversion (lib/slope_density.h), EM (em.h), Ceres (refine.h).
+#pragma once
+
+#include "brdf.h"
+#include "material.h"
+
+namespace smx {
+
+struct FitOptions {
+    unsigned lobes = 8;
+    double tolerance = 1e-10;
+    unsigned max_iterations = 20000;
+    bool refine = true;
+};
+
+void validate(const FitOptions &options);
+
+// Throws NoSolution when the density cannot be fitted.
+Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options);
+
+}  // namespace smx

@@ -1,0 +1,57 @@
+#include "context.h"
+
+#include <chrono>
+
+#include "error.h"
+
+namespace smx {
+
+namespace {
+
+std::uint32_t chosen_width(std::uint32_t wanted, std::uint32_t native) {
+    require(wanted == 0 || wanted == 1 || wanted == 4 || wanted == 8 || wanted == 16, "vector_width is ", wanted,
+            "; it must be 0 (the device's own), 1, 4, 8 or 16");
+    return wanted ? wanted : native;
+}
+
+}  // namespace
+
+Context::Context(const std::string &wanted, std::uint32_t vector_width)
+    : device_(choose_device(wanted)),
+      context_(device_),
+      queue_(context_, device_, CL_QUEUE_PROFILING_ENABLE),
+      info_(device_info(device_)) {
+    info_.vector_width = chosen_width(vector_width, info_.vector_width);
+}
+
+Context::Context(const cl::Context &context, const cl::CommandQueue &queue, std::uint32_t vector_width)
+    : device_(queue.getInfo<CL_QUEUE_DEVICE>()), context_(context), queue_(queue), info_(device_info(device_)) {
+    require(queue.getInfo<CL_QUEUE_CONTEXT>()() == context(), "cl_queue belongs to another context than cl_context");
+    info_.vector_width = chosen_width(vector_width, info_.vector_width);
+}
+
+cl::Program Context::build(const std::string &file, const std::string &options) {
+    const std::string source = kernel_source(file);
+    const std::string key = text(options, '\n', info_.platform_version, '\n', info_.name, '\n', info_.driver, '\n', source);
+    if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+
+    const auto start = std::chrono::steady_clock::now();
+    cl::Program program(context_, source);
+    try {
+        program.build({device_}, options.c_str());
+    } catch (const cl::Error &e) {
+        const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+        fail(Fault::KernelBuild, file, " does not build on ", info_.name, " (", opencl_error_name(e.err()),
+             ") with options ", options, ":\n", log);
+    }
+    build_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return programs_.emplace(key, program).first->second;
+}
+
+cl::Kernel Context::kernel(const std::string &file, const std::string &name, const Defines &defines) {
+    Defines all = defines;
+    all["W"] = static_cast<int>(width());
+    return cl::Kernel(build(file, build_options(all)), name.c_str());
+}
+
+}  // namespace smx

@@ -1,0 +1,56 @@
+// A device, its queue, and the kernels built for it. Kernels are built on first use and kept, by their full source and
+// options; PoCL keeps their binaries on disk itself.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "device.h"
+#include "opencl.h"
+
+namespace smx {
+
+// -D parameters of a build.
+using Defines = std::map<std::string, int>;
+
+class Context {
+  public:
+    // On a device of ours (device.h says what `wanted` may be), or on a context and queue of the caller's, retained.
+    // vector_width 0: the device's own.
+    Context(const std::string &wanted, std::uint32_t vector_width);
+    Context(const cl::Context &context, const cl::CommandQueue &queue, std::uint32_t vector_width);
+
+    // The kernel `name` of file `name.cl`, or of `file`, built with W and the defines. A kernel object of its own, so
+    // that arguments are not shared. Throws KernelBuild with the compiler's log.
+    cl::Kernel kernel(const std::string &file, const std::string &name, const Defines &defines = {});
+
+    const DeviceInfo &info() const { return info_; }
+    std::uint32_t width() const { return info_.vector_width; }
+    const cl::Context &cl() const { return context_; }
+    const cl::CommandQueue &queue() const { return queue_; }
+    double build_seconds() const { return build_seconds_; }  // of all builds so far
+
+    // Calls on one context run one after another.
+    std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
+
+  private:
+    cl::Program build(const std::string &file, const std::string &options);
+
+    cl::Device device_;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    DeviceInfo info_;
+    std::map<std::string, cl::Program> programs_;
+    double build_seconds_ = 0.0;
+    std::mutex mutex_;
+};
+
+// The text of a kernel file with its includes put in place, each once, with #line directives so that a compiler's log
+// names the files.
+std::string kernel_source(const std::string &file);
+
+// -D options in a fixed order.
+std::string build_options(const Defines &defines);
+
+}  // namespace smx

@@ -1,0 +1,100 @@
+#include "device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "error.h"
+
+namespace smx {
+
+namespace {
+
+std::string lower(std::string s) {
+    std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return std::tolower(c); });
+    return s;
+}
+
+// Some drivers pad with blanks or count the terminator.
+std::string trimmed(std::string s) {
+    while (!s.empty() && (s.back() == '\0' || s.back() == ' ')) s.pop_back();
+    return s.substr(std::min(s.find_first_not_of(' '), s.size()));
+}
+
+// Lanes per work-item: a GPU's work-items are lanes themselves; a CPU's hold its native float vector, of which the
+// kernels know 4, 8 and 16.
+std::uint32_t vector_width(const cl::Device &device) {
+    if (!(device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU)) return 1;
+    const auto native = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
+    return native >= 16 ? 16 : native >= 8 ? 8 : 4;
+}
+
+std::string list_of(const std::vector<cl::Device> &devices) {
+    std::string list;
+    for (std::size_t k = 0; k < devices.size(); ++k)
+        list += text(k ? ", " : "", k, " \"", trimmed(devices[k].getInfo<CL_DEVICE_NAME>()), "\"");
+    return list;
+}
+
+}  // namespace
+
+std::vector<cl::Device> all_devices() {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error &) {
+        return {};  // the loader's way to say that there is no platform
+    }
+    std::vector<cl::Device> all;
+    for (const cl::Platform &platform : platforms) {
+        std::vector<cl::Device> devices;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+        } catch (const cl::Error &) {
+            continue;  // a platform without a device
+        }
+        all.insert(all.end(), devices.begin(), devices.end());
+    }
+    return all;
+}
+
+DeviceInfo device_info(const cl::Device &device) {
+    DeviceInfo info;
+    const std::vector<cl::Device> all = all_devices();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const cl::Device &d) { return d() == device(); });
+    info.index = static_cast<std::uint32_t>(found - all.begin());
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+    info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
+    info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+    info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+    info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
+    info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.vector_width = vector_width(device);
+    return info;
+}
+
+cl::Device choose_device(const std::string &wanted) {
+    const std::vector<cl::Device> devices = all_devices();
+    if (devices.empty())
+        fail(Fault::NoDevice, "no OpenCL device; install one for the CPU, such as the package pocl-opencl-icd");
+    if (wanted.empty()) {
+        const auto cpu = std::find_if(devices.begin(), devices.end(), [](const cl::Device &d) {
+            return (d.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+        });
+        return cpu != devices.end() ? *cpu : devices.front();
+    }
+    std::size_t index = 0;
+    const auto parsed = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (parsed.ptr == wanted.data() + wanted.size()) {
+        if (parsed.ec == std::errc() && index < devices.size()) return devices[index];
+        fail(Fault::NoDevice, "no device ", wanted, "; there are ", list_of(devices));
+    }
+    for (const cl::Device &device : devices)
+        if (lower(device.getInfo<CL_DEVICE_NAME>()).find(lower(wanted)) != std::string::npos) return device;
+    fail(Fault::NoDevice, "no device whose name holds \"", wanted, "\"; there are ", list_of(devices));
+}
+
+}  // namespace smx

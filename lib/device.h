@@ -1,0 +1,28 @@
+// The OpenCL devices of this machine, counted over all platforms.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "opencl.h"
+
+namespace smx {
+
+struct DeviceInfo {
+    std::uint32_t index = 0;
+    std::string name, vendor, version, driver, platform, platform_version;
+    std::uint32_t compute_units = 0;
+    std::uint64_t global_memory = 0;
+    std::uint32_t vector_width = 1;  // evaluations per work-item
+};
+
+std::vector<cl::Device> all_devices();
+
+DeviceInfo device_info(const cl::Device &device);
+
+// "": the first CPU, else the first device; digits: an index; else part of a name, any case. Throws NoDevice with the
+// list of those there are.
+cl::Device choose_device(const std::string &wanted);
+
+}  // namespace smx

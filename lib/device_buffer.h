@@ -1,0 +1,36 @@
+// Small helpers for buffers and for the time of launches, shared by every launch function.
+#pragma once
+
+#include <vector>
+
+#include "context.h"
+
+namespace smx {
+
+template <typename T>
+cl::Buffer buffer_from(const Context &context, const std::vector<T> &values) {
+    // The wrapper takes host memory as not const; CL_MEM_COPY_HOST_PTR only reads it.
+    return cl::Buffer(context.cl(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T),
+                      const_cast<T *>(values.data()));
+}
+
+template <typename T>
+cl::Buffer empty_buffer(const Context &context, std::size_t count) {
+    return cl::Buffer(context.cl(), CL_MEM_READ_WRITE, count * sizeof(T));
+}
+
+constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {
+    return (count + multiple - 1) / multiple * multiple;
+}
+
+// Seconds on the device of finished launches, where the queue measures them (a caller's own may not).
+class KernelTime {
+  public:
+    void add(const cl::Event &event);
+    double seconds() const { return seconds_; }
+
+  private:
+    double seconds_ = 0.0;
+};
+
+}  // namespace smx

@@ -1,0 +1,144 @@
+#include "material_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "atomic_file.h"
+#include "error.h"
+#include "json_reader.h"
+
+namespace smx {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char *format_name = "slopemix-material";
+constexpr unsigned format_version = 1;
+constexpr const char *channel_names[] = {"r", "g", "b"};
+
+ordered_json report_to_json(const FitReport &r) {
+    return {{"inversion_iterations", r.inversion_iterations},
+            {"em_iterations", r.em_iterations},
+            {"refine_iterations", r.refine_iterations},
+            {"log_likelihood_em", r.log_likelihood_em},
+            {"log_likelihood", r.log_likelihood},
+            {"residual_em", r.residual_em},
+            {"residual", r.residual},
+            {"seconds", r.seconds},
+            {"refine_message", r.refine_message}};
+}
+
+FitReport report_from_json(JsonReader in) {
+    FitReport r;
+    r.inversion_iterations = in.member("inversion_iterations").count();
+    r.em_iterations = in.member("em_iterations").count();
+    r.refine_iterations = in.member("refine_iterations").count();
+    r.log_likelihood_em = in.member("log_likelihood_em").number();
+    r.log_likelihood = in.member("log_likelihood").number();
+    r.residual_em = in.member("residual_em").number();
+    r.residual = in.member("residual").number();
+    r.seconds = in.member("seconds").number();
+    r.refine_message = in.member("refine_message").string();
+    in.finish();
+    return r;
+}
+
+ordered_json to_json(const Material &m) {
+    ordered_json lobes = ordered_json::array(), fresnel;
+    for (const Lobe &lobe : m.lobes) lobes.push_back({{"weight", lobe.weight}, {"alpha", lobe.alpha}});
+    for (std::size_t c = 0; c < 3; ++c) fresnel[channel_names[c]] = m.fresnel[c];
+    return {{"format", format_name},
+            {"version", format_version},
+            {"name", m.name},
+            {"source", {{"name", m.source}, {"sha256", m.sha256}}},
+            {"model", "shared"},
+            {"lobes", lobes},
+            {"fresnel", fresnel},
+            {"fit", report_to_json(m.report)}};
+}
+
+std::vector<Lobe> lobes_from_json(const JsonReader &in) {
+    std::vector<Lobe> lobes;
+    const std::size_t count = in.array_size();
+    if (count < 1 || count > max_lobes) in.refuse(text("must hold 1..", max_lobes, " lobes, not ", count));
+    for (std::size_t k = 0; k < count; ++k) {
+        JsonReader lobe = in.element(k);
+        lobes.push_back({lobe.member("weight").number(), lobe.member("alpha").number()});
+        lobe.finish();
+    }
+    return lobes;
+}
+
+std::vector<double> curve_from_json(const JsonReader &in) {
+    std::vector<double> curve;
+    for (std::size_t k = 0; k < in.array_size(); ++k) curve.push_back(in.element(k).number());
+    return curve;
+}
+
+Material from_json(const json &document) {
+    JsonReader in(document, "$");
+    if (in.member("format").string() != format_name) in.member("format").refuse(text("must be \"", format_name, "\""));
+    const unsigned version = in.member("version").count();
+    if (version != format_version)
+        in.member("version").refuse(text("is ", version, "; this library reads ", format_version));
+    if (in.member("model").string() != "shared") in.member("model").refuse("must be \"shared\"");
+
+    Material m;
+    m.name = in.member("name").string();
+    JsonReader source = in.member("source");
+    m.source = source.member("name").string();
+    m.sha256 = source.member("sha256").string();
+    source.finish();
+    m.lobes = lobes_from_json(in.member("lobes"));
+    JsonReader fresnel = in.member("fresnel");
+    for (std::size_t c = 0; c < 3; ++c) m.fresnel[c] = curve_from_json(fresnel.member(channel_names[c]));
+    fresnel.finish();
+    m.report = report_from_json(in.member("fit"));
+    in.finish();
+    return m;
+}
+
+// Ranges, and what the rest of the library takes for granted of a material: the lobes' order and the weights' sum.
+void check_values(const Material &m) {
+    double total = 0.0;
+    for (const Lobe &lobe : m.lobes) total += lobe.weight;
+    if (std::abs(total - 1.0) > 1e-9) fail(Fault::BadFormat, "$.lobes: the weights sum to ", total, ", not 1");
+    for (std::size_t k = 1; k < m.lobes.size(); ++k)
+        if (m.lobes[k].alpha < m.lobes[k - 1].alpha)
+            fail(Fault::BadFormat, "$.lobes[", k, "].alpha is ", m.lobes[k].alpha, ", below the lobe before it");
+    try {
+        validate(m);
+    } catch (const Error &e) {
+        fail(Fault::BadFormat, "$.", e.what());
+    }
+}
+
+}  // namespace
+
+Material load_material(const std::string &path) {
+    std::error_code status;
+    if (std::filesystem::is_directory(path, status)) fail(Fault::CannotRead, "cannot read ", path, ": it is a folder");
+    errno = 0;
+    std::ifstream in(path);
+    if (!in) fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
+    try {
+        Material material = from_json(json::parse(in));
+        check_values(material);
+        return material;
+    } catch (const json::exception &e) {
+        fail(Fault::BadFormat, path, ": ", e.what());
+    } catch (const Error &e) {
+        fail(e.fault(), path, ": ", e.what());
+    }
+}
+
+void save_material(const Material &material, const std::string &path) {
+    write_atomically(path, to_json(material).dump(2) + "\n");
+}
+
+}  // namespace smx

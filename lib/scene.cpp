@@ -1,0 +1,97 @@
+#include "scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "error.h"
+
+namespace smx {
+
+namespace {
+
+constexpr double max_displacement = 1e4;
+
+void validate_alpha(const char *name, double alpha) {
+    require(alpha >= 0.0 && alpha <= max_displacement, name, " is ", alpha, "; it must be 0..", max_displacement);
+}
+
+void validate_mean(const char *name, double slope) {
+    require(std::abs(slope) <= max_displacement, name, " is ", slope, "; it must be -", max_displacement, "..",
+            max_displacement);
+}
+
+}  // namespace
+
+void validate(const Displacement &x) {
+    validate_alpha("alpha_x", x.alpha_x);
+    validate_alpha("alpha_y", x.alpha_y);
+    require(std::abs(x.rho) < 1.0, "rho is ", x.rho, "; it must be above -1 and below 1");
+    validate_mean("mean_slope_x", x.mean_slope_x);
+    validate_mean("mean_slope_y", x.mean_slope_y);
+}
+
+void validate(const Scene &s) {
+    require(s.width >= 1 && s.width <= max_side, "width is ", s.width, "; it must be 1..", max_side);
+    require(s.height >= 1 && s.height <= max_side, "height is ", s.height, "; it must be 1..", max_side);
+    require(std::isfinite(s.light_phi), "light_phi is ", s.light_phi, "; it must be finite");
+    require(s.masking == Masking::Correlated || s.masking == Masking::Separable, "masking is ",
+            static_cast<int>(s.masking), "; it must be 0 or 1");
+    validate(s.displacement);
+}
+
+PrincipalAxes principal_axes(const Displacement &x) {
+    const double xx = x.alpha_x * x.alpha_x, yy = x.alpha_y * x.alpha_y, xy = x.rho * x.alpha_x * x.alpha_y;
+    if (xy == 0.0) return {1.0, 0.0, xx, yy};
+    // The larger root by a sum, the smaller as the determinant over it, so that neither cancels.
+    const double half = (xx - yy) / 2, radius = std::hypot(half, xy);
+    const double larger = (xx + yy) / 2 + radius, smaller = xx * yy * (1.0 - x.rho) * (1.0 + x.rho) / larger;
+    const double angle = std::atan2(xy, half) / 2;
+    return {std::cos(angle), std::sin(angle), larger, smaller};
+}
+
+DeviceDisplacement to_device(const Displacement &x) {
+    const PrincipalAxes axes = principal_axes(x);
+    const auto f = [](double v) { return static_cast<float>(v); };
+    return {f(x.mean_slope_x),
+            f(x.mean_slope_y),
+            f(x.alpha_x * x.alpha_x),
+            f(x.rho * x.alpha_x * x.alpha_y),
+            f(x.alpha_y * x.alpha_y),
+            f(axes.axis_x),
+            f(axes.axis_y),
+            f(axes.var_1),
+            f(axes.var_2)};
+}
+
+namespace {
+
+// Angle from the view direction (phi = pi/2) to the light, -pi..pi.
+double view_to_light(const Scene &s) { return std::remainder(s.light_phi - std::numbers::pi / 2, 2 * std::numbers::pi); }
+
+}  // namespace
+
+double theta_d(const Scene &s) { return std::abs(view_to_light(s)) / 2; }
+
+DeviceView to_device(const Scene &s) {
+    const double turn = view_to_light(s);
+    const auto f = [](double v) { return static_cast<float>(v); };
+    return {static_cast<std::int32_t>(s.width), static_cast<std::int32_t>(s.height),
+            f(-std::sin(turn)), f(std::cos(turn)), f(-std::sin(turn / 2)), f(std::cos(turn / 2))};
+}
+
+std::uint64_t sphere_pixels(const Scene &s) {
+    // Per row, the offsets from the centre, in half pixels, of one parity and with a square below left2.
+    const std::int64_t side = std::min(s.width, s.height), height = s.height;
+    const std::int64_t odd = s.width % 2 == 0 ? 1 : 0;
+    std::uint64_t count = 0;
+    for (std::int64_t up = 1 - height; up < height; up += 2) {
+        const std::int64_t left2 = side * side - up * up;
+        if (left2 <= 0) continue;
+        const auto reach = static_cast<std::int64_t>(std::sqrt(static_cast<double>(left2 - 1)));
+        count += static_cast<std::uint64_t>(odd ? 2 * ((reach + 1) / 2) : 2 * (reach / 2) + 1);
+    }
+    return count;
+}
+
+}  // namespace smx

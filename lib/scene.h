@@ -1,0 +1,61 @@
+// The displaced surface and the experiment's sphere, as the host knows them, and their structs on the device.
+#pragma once
+
+#include <cstdint>
+
+namespace smx {
+
+// Gaussian density of slopes; alphas are sqrt(2) times the standard deviations.
+struct Displacement {
+    double alpha_x = 0.0, alpha_y = 0.0;
+    double rho = 0.0;
+    double mean_slope_x = 0.0, mean_slope_y = 0.0;
+};
+
+enum class Masking { Correlated = 0, Separable = 1 };
+
+struct Scene {
+    std::uint32_t width = 128, height = 128;
+    double light_phi = 0.0;
+    Displacement displacement;
+    Masking masking = Masking::Correlated;
+};
+
+constexpr std::uint32_t max_side = 16384;
+
+// Throw InvalidArgument, naming value and range.
+void validate(const Displacement &displacement);
+void validate(const Scene &scene);
+
+// As in cl/displacement.clh.
+struct DeviceDisplacement {
+    float mean_x, mean_y;
+    float cov_xx, cov_xy, cov_yy;
+    float axis_x, axis_y;
+    float var_1, var_2;
+};
+
+// As in cl/sphere.clh.
+struct DeviceView {
+    std::int32_t width, height;
+    float wi_x, wi_y;
+    float wh_x, wh_y;
+};
+
+// Covariance and principal axes, in double before they are rounded.
+struct PrincipalAxes {
+    double axis_x, axis_y;  // unit vector along the first
+    double var_1, var_2;    // twice the variances: alphas squared
+};
+PrincipalAxes principal_axes(const Displacement &displacement);
+
+DeviceDisplacement to_device(const Displacement &displacement);
+DeviceView to_device(const Scene &scene);
+
+// Half the angle between light and view, 0..pi/2: one for the whole image.
+double theta_d(const Scene &scene);
+
+// Pixels whose centre lies on the sphere.
+std::uint64_t sphere_pixels(const Scene &scene);
+
+}  // namespace smx

@@ -1,0 +1,127 @@
+#include "shade_filtered.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "device_buffer.h"
+#include "error.h"
+
+namespace smx {
+
+namespace {
+
+constexpr const char *kernel_file = "shade_filtered.cl";
+
+// As in cl/mixture.clh.
+struct DeviceLobe {
+    float weight, alpha2, inv_var_1, inv_var_2, peak;
+};
+
+// Each lobe's variances plus X's, along X's principal axes.
+std::vector<DeviceLobe> widened_lobes(const Material &material, const Displacement &x) {
+    const PrincipalAxes axes = principal_axes(x);
+    std::vector<DeviceLobe> lobes;
+    for (const auto &[weight, alpha] : material.lobes) {
+        const double alpha2 = alpha * alpha, var_1 = alpha2 + axes.var_1, var_2 = alpha2 + axes.var_2;
+        const double peak = weight / (std::numbers::pi * std::sqrt(var_1) * std::sqrt(var_2));
+        lobes.push_back({static_cast<float>(weight), static_cast<float>(alpha2), static_cast<float>(1.0 / var_1),
+                         static_cast<float>(1.0 / var_2), static_cast<float>(peak)});
+    }
+    return lobes;
+}
+
+Defines defines(Masking masking) { return {{"G2_SEPARABLE", masking == Masking::Separable}}; }
+
+std::vector<float> device_fresnel(const FresnelCurves &curves) {
+    std::vector<float> packed;
+    for (const std::vector<double> &curve : curves)
+        for (double f : curve) packed.push_back(static_cast<float>(f));
+    return packed;
+}
+
+// [count][3] to [3][stride], stride a multiple of the vector width; what pads it are directions below the surface.
+std::vector<float> to_planes(const float *packed, std::size_t count, std::size_t stride) {
+    std::vector<float> planes(3 * stride, -1.0f);
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) planes[axis * stride + k] = packed[3 * k + axis];
+    return planes;
+}
+
+}  // namespace
+
+Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
+    validate(scene);
+    const auto lock = context.lock();
+    const CallTimer timer(context);
+    Rendered result{Image(scene.width, scene.height), {}};
+    report_progress(options, 0.0);
+
+    const std::vector<DeviceLobe> lobes = widened_lobes(material, scene.displacement);
+    const Rgb f = fresnel_at(material.fresnel, theta_d(scene));
+    const cl_float4 fresnel = {{static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2]), 0.0f}};
+    const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene));
+    const cl::Buffer lobe_buffer = buffer_from(context, lobes);
+    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_sphere", defines(scene.masking));
+    kernel.setArg(0, rgba);
+    kernel.setArg(1, to_device(scene));
+    kernel.setArg(3, to_device(scene.displacement));
+    kernel.setArg(4, lobe_buffer);
+    kernel.setArg(5, static_cast<cl_int>(lobes.size()));
+    kernel.setArg(6, fresnel);
+
+    KernelTime time;
+    for (const Band &band : bands(scene)) {
+        kernel.setArg(2, static_cast<cl_int>(band.first_row));
+        cl::Event event;
+        const std::size_t columns = round_up(scene.width, context.width()) / context.width();
+        context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(columns, band.rows), cl::NullRange,
+                                             nullptr, &event);
+        time.add(event);
+        read_band(context, rgba, band, result.image);
+        report_progress(options, static_cast<double>(band.first_row + band.rows) / scene.height);
+    }
+    describe(result.image, "filtered", scene);
+    result.image.attributes["slopemix.material"] = material.name;
+    result.image.attributes["slopemix.model"] = "shared";
+    result.image.attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
+    result.report = timer.finish(context, time.seconds(), sphere_pixels(scene));
+    return result;
+}
+
+void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement,
+                          Masking masking, std::size_t count, const float *wi, const float *wo, float *fcos) {
+    validate(displacement);
+    require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
+            "; it must be 0 or 1");
+    const std::size_t stride = round_up(count, context.width());
+    require(stride <= static_cast<std::size_t>(std::numeric_limits<cl_int>::max()) / 3, "count is ", count,
+            "; it must be below 715827882");
+    if (count == 0) return;
+
+    const auto lock = context.lock();
+    const std::vector<DeviceLobe> lobes = widened_lobes(material, displacement);
+    const std::vector<float> fresnel = device_fresnel(material.fresnel);
+    const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
+    const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
+    const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
+    const cl::Buffer lobe_buffer = buffer_from(context, lobes), fresnel_buffer = buffer_from(context, fresnel);
+    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(masking));
+    kernel.setArg(0, out);
+    kernel.setArg(1, static_cast<cl_int>(stride));
+    kernel.setArg(2, wi_buffer);
+    kernel.setArg(3, wo_buffer);
+    kernel.setArg(4, to_device(displacement));
+    kernel.setArg(5, lobe_buffer);
+    kernel.setArg(6, static_cast<cl_int>(lobes.size()));
+    kernel.setArg(7, fresnel_buffer);
+    kernel.setArg(8, static_cast<cl_int>(material.fresnel[0].size()));
+    context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(stride / context.width()));
+
+    std::vector<float> planes(3 * stride);
+    context.queue().enqueueReadBuffer(out, CL_TRUE, 0, planes.size() * sizeof(float), planes.data());
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t channel = 0; channel < 3; ++channel) fcos[3 * k + channel] = planes[channel * stride + k];
+}
+
+}  // namespace smx
