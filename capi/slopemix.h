@@ -218,7 +218,7 @@ typedef struct smx_fit_options {
     uint32_t max_iterations; /* of EM, 1..1000000 */
     int refine;              /* nonzero: least-squares refinement of weights and alphas (Ceres) after EM */
 } smx_fit_options;
-#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), 8, 1e-10, 20000, 1}
+#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), 8, 1e-6, 20000, 1}
 
 typedef struct smx_fit_report {
     size_t size;

@@ -14,19 +14,12 @@ namespace {
 // A lobe whose share falls below this holds less than a rounding of the density's mass.
 constexpr double dead_weight = 1e-14;
 
-// Lobes whose alphas agree to this describe the same density.
-constexpr double merge_ratio = 1.0 + 1e-7;
+// Two lobes become one where that costs less than this in mean log likelihood.
+constexpr double merge_loss = 1e-9;
 
 double log_lobe(const Lobe &lobe, double s) {
     const double alpha2 = lobe.alpha * lobe.alpha;
     return std::log(lobe.weight) - s / alpha2 - std::log(std::numbers::pi * alpha2);
-}
-
-double log_sum_exp(const std::vector<double> &logs) {
-    const double top = *std::max_element(logs.begin(), logs.end());
-    double sum = 0.0;
-    for (double value : logs) sum += std::exp(value - top);
-    return top + std::log(sum);
 }
 
 std::vector<double> log_lobes(const std::vector<Lobe> &lobes, double s) {
@@ -81,17 +74,25 @@ double em_step(std::vector<Lobe> &lobes, const SlopeDensity &density) {
     return likelihood;
 }
 
-void merge_equal(std::vector<Lobe> &lobes) {
-    canonicalise(lobes);
-    std::vector<Lobe> merged;
-    for (const Lobe &lobe : lobes) {
-        if (!merged.empty() && lobe.alpha < merged.back().alpha * merge_ratio) merged.back().weight += lobe.weight;
-        else merged.push_back(lobe);
-    }
-    lobes = std::move(merged);
+// The pair k, k + 1 as one lobe of the same mass and mean squared slope.
+std::vector<Lobe> joined(const std::vector<Lobe> &lobes, std::size_t k) {
+    const Lobe &a = lobes[k], &b = lobes[k + 1];
+    const double weight = a.weight + b.weight;
+    const double moment = a.weight * a.alpha * a.alpha + b.weight * b.alpha * b.alpha;
+    std::vector<Lobe> fewer = lobes;
+    fewer[k] = {weight, bounded_alpha(moment / weight)};
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    return fewer;
 }
 
 }  // namespace
+
+double log_sum_exp(const std::vector<double> &logs) {
+    const double top = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0;
+    for (double value : logs) sum += std::exp(value - top);
+    return top + std::log(sum);
+}
 
 double log_p22(const std::vector<Lobe> &lobes, double s) { return log_sum_exp(log_lobes(lobes, s)); }
 
@@ -100,6 +101,20 @@ double mean_log_likelihood(const std::vector<Lobe> &lobes, const SlopeDensity &d
     for (std::size_t j = 0; j < density.mass.size(); ++j)
         if (density.mass[j] > 0.0) likelihood += density.mass[j] * log_p22(lobes, density.slope[j] * density.slope[j]);
     return likelihood;
+}
+
+void merge_redundant(std::vector<Lobe> &lobes, const SlopeDensity &density) {
+    double likelihood = mean_log_likelihood(lobes, density);
+    for (std::size_t k = 0; k + 1 < lobes.size();) {
+        const std::vector<Lobe> fewer = joined(lobes, k);
+        const double changed = mean_log_likelihood(fewer, density);
+        if (changed < likelihood - merge_loss) {
+            ++k;
+            continue;
+        }
+        lobes = fewer;
+        likelihood = changed;
+    }
 }
 
 EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations) {
@@ -112,7 +127,7 @@ EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, u
         gains = likelihood - before >= tolerance;
         before = likelihood;
     }
-    merge_equal(result.lobes);
+    canonicalise(result.lobes);
     result.log_likelihood = mean_log_likelihood(result.lobes, density);
     return result;
 }

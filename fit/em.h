@@ -9,7 +9,7 @@
 namespace smx {
 
 struct EmResult {
-    std::vector<Lobe> lobes;  // canonical order; fewer than asked for where lobes died or merged
+    std::vector<Lobe> lobes;  // canonical order; fewer than asked for where lobes died
     unsigned iterations = 0;
     double log_likelihood = 0.0;
 };
@@ -17,6 +17,13 @@ struct EmResult {
 // Starts from quantiles of the mass; stops when the mean log likelihood gains less than `tolerance`, or after
 // max_iterations. Throws NoSolution for a density without mass.
 EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations);
+
+// Joins neighbours where one lobe describes the density as well: lobes that a fit had to spare end up side by side.
+// `lobes` are in canonical order.
+void merge_redundant(std::vector<Lobe> &lobes, const SlopeDensity &density);
+
+// log sum exp(logs), without overflow.
+double log_sum_exp(const std::vector<double> &logs);
 
 // Logarithm of the mixture's slope density at squared slope s, by log-sum-exp.
 double log_p22(const std::vector<Lobe> &lobes, double s);

@@ -30,18 +30,20 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
     const EmResult em = fit_em(density, options.lobes, options.tolerance, options.max_iterations);
     m.lobes = em.lobes;
     m.report.em_iterations = em.iterations;
-    m.report.log_likelihood = m.report.log_likelihood_em = em.log_likelihood;
-    m.report.residual = m.report.residual_em = hellinger(m.lobes, density);
+    m.report.log_likelihood_em = em.log_likelihood;
+    m.report.residual_em = hellinger(m.lobes, density);
 
-    // Refine by least squares.
+    // Refine by least squares; a solver that ends below its start changes nothing.
     if (options.refine) {
         const RefineResult refined = refine(em.lobes, density);
-        m.lobes = refined.lobes;
         m.report.refine_iterations = refined.iterations;
         m.report.refine_message = refined.message;
-        m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
-        m.report.residual = hellinger(m.lobes, density);
+        if (mean_log_likelihood(refined.lobes, density) >= em.log_likelihood) m.lobes = refined.lobes;
+        else m.report.refine_message += " (below EM's likelihood: EM's lobes kept)";
     }
+    merge_redundant(m.lobes, density);
+    m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
+    m.report.residual = hellinger(m.lobes, density);
     m.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     validate(m);
     return m;

@@ -8,7 +8,7 @@ namespace smx {
 
 struct FitOptions {
     unsigned lobes = 8;
-    double tolerance = 1e-10;
+    double tolerance = 1e-6;
     unsigned max_iterations = 20000;
     bool refine = true;
 };

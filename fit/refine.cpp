@@ -12,90 +12,121 @@
 #include <numbers>
 
 #include "em.h"
-#include "error.h"
 
 namespace smx {
 
 namespace {
 
-// parameters[0]: log alphas, parameters[1]: log weights up to a common constant.
-struct HellingerResiduals {
-    const SlopeDensity &density;
-    int lobes;
+// Residual of one node and its derivative by the logarithm of the mixture there.
+struct Deviance {
+    double residual, derivative;
+};
 
-    template <typename T>
-    bool operator()(T const *const *parameters, T *residuals) const {
-        using std::exp;
-        using std::sqrt;
-        T total(0.0);
-        for (int k = 0; k < lobes; ++k) total += exp(parameters[1][k]);
-        for (std::size_t j = 0; j < density.slope.size(); ++j) {
-            const double s = density.slope[j] * density.slope[j];
-            T mixture(0.0);
-            for (int k = 0; k < lobes; ++k) {
-                const T inv_alpha2 = exp(-2.0 * parameters[0][k]);
-                mixture += exp(parameters[1][k] - s * inv_alpha2) * inv_alpha2;
+Deviance deviance(double mass, double p22, double area, double log_mixture) {
+    const double mixture_mass = area * std::exp(log_mixture);
+    const double x = log_mixture - (mass > 0.0 ? std::log(p22) : 0.0);
+    // Near the minimum the difference below cancels: x - 1 - log x in powers of log x = t is t^2/2 + t^3/6 + ...
+    if (mass > 0.0 && std::abs(x) < 1e-3) {
+        const double root = std::sqrt(mass);
+        return {root * x * (1.0 + x / 6.0), root * (1.0 + x / 3.0)};
+    }
+    const double half = mass > 0.0 ? mixture_mass - mass - mass * x : mixture_mass;
+    const double residual = std::copysign(std::sqrt(2.0 * std::max(half, 0.0)), mixture_mass - mass);
+    return {residual, residual != 0.0 ? (mixture_mass - mass) / residual : 0.0};
+}
+
+// Parameters: log alphas, then log weights up to a common constant.
+class DevianceResiduals : public ceres::CostFunction {
+  public:
+    DevianceResiduals(const SlopeDensity &density, int lobes) : density_(density), lobes_(static_cast<std::size_t>(lobes)) {
+        *mutable_parameter_block_sizes() = {lobes, lobes};
+        set_num_residuals(static_cast<int>(density.slope.size()));
+    }
+
+    bool Evaluate(double const *const *parameters, double *residuals, double **jacobians) const override {
+        std::vector<double> logs(lobes_), log_weight(lobes_);
+        const double log_total = log_sum_exp({parameters[1], parameters[1] + lobes_});
+        for (std::size_t k = 0; k < lobes_; ++k) log_weight[k] = parameters[1][k] - log_total;
+        for (std::size_t j = 0; j < density_.slope.size(); ++j) {
+            const double s = density_.slope[j] * density_.slope[j];
+            for (std::size_t k = 0; k < lobes_; ++k)
+                logs[k] = log_weight[k] - s * std::exp(-2 * parameters[0][k]) - 2 * parameters[0][k] -
+                          std::log(std::numbers::pi);
+            const double log_mixture = log_sum_exp(logs);
+            const auto [residual, derivative] =
+                deviance(density_.mass[j], density_.p22[j], density_.area[j], log_mixture);
+            residuals[j] = residual;
+            for (std::size_t k = 0; k < lobes_; ++k) {
+                const double share = std::exp(logs[k] - log_mixture);
+                const std::size_t at = j * lobes_ + k;
+                if (jacobians && jacobians[0])
+                    jacobians[0][at] = derivative * share * 2 * (s * std::exp(-2 * parameters[0][k]) - 1.0);
+                if (jacobians && jacobians[1])
+                    jacobians[1][at] = derivative * (share - std::exp(log_weight[k]));
             }
-            mixture /= std::numbers::pi * total;
-            // The root has no derivative at 0, where every lobe underflows; the mixture has no share there.
-            const T root = mixture > T(0.0) ? T(sqrt(mixture)) : T(0.0);
-            residuals[j] = std::sqrt(density.area[j]) * (std::sqrt(density.p22[j]) - root);
         }
         return true;
     }
+
+  private:
+    const SlopeDensity &density_;
+    std::size_t lobes_;
 };
 
-// The weights are free up to a common factor, so that of the heaviest lobe is held.
-ceres::Manifold *hold(std::size_t lobes, std::size_t held) {
-    return new ceres::SubsetManifold(static_cast<int>(lobes), {static_cast<int>(held)});
+// The lobes as the solver sees them.
+struct Parameters {
+    std::vector<double> log_alpha, log_weight;
+
+    explicit Parameters(const std::vector<Lobe> &lobes) {
+        for (const Lobe &lobe : lobes) {
+            log_alpha.push_back(std::log(lobe.alpha));
+            log_weight.push_back(std::log(lobe.weight));
+        }
+    }
+
+    std::vector<Lobe> lobes() const {
+        const double top = *std::max_element(log_weight.begin(), log_weight.end());
+        std::vector<Lobe> lobes;
+        for (std::size_t k = 0; k < log_alpha.size(); ++k) {
+            const double weight = std::exp(log_weight[k] - top);
+            if (weight > 0.0) lobes.push_back({weight, std::clamp(std::exp(log_alpha[k]), min_alpha, max_alpha)});
+        }
+        canonicalise(lobes);
+        return lobes;
+    }
+};
+
+void pose(ceres::Problem &problem, Parameters &p, const SlopeDensity &density) {
+    const int n = static_cast<int>(p.log_alpha.size());
+    problem.AddResidualBlock(new DevianceResiduals(density, n), nullptr, p.log_alpha.data(), p.log_weight.data());
+    for (int k = 0; k < n; ++k) {
+        problem.SetParameterLowerBound(p.log_alpha.data(), k, std::log(min_alpha));
+        problem.SetParameterUpperBound(p.log_alpha.data(), k, std::log(max_alpha));
+    }
+    // The weights are free up to a common factor, so that of the heaviest lobe is held.
+    const auto heaviest = std::max_element(p.log_weight.begin(), p.log_weight.end()) - p.log_weight.begin();
+    if (n == 1) problem.SetParameterBlockConstant(p.log_weight.data());
+    else problem.SetManifold(p.log_weight.data(), new ceres::SubsetManifold(n, {static_cast<int>(heaviest)}));
 }
 
 }  // namespace
 
 RefineResult refine(const std::vector<Lobe> &start, const SlopeDensity &density) {
-    const std::size_t count = start.size();
-    std::vector<double> log_alpha, log_weight;
-    for (const Lobe &lobe : start) {
-        log_alpha.push_back(std::log(lobe.alpha));
-        log_weight.push_back(std::log(lobe.weight));
-    }
-
+    Parameters parameters(start);
     ceres::Problem problem;
-    const int n = static_cast<int>(count);
-    auto *cost = new ceres::DynamicAutoDiffCostFunction<HellingerResiduals, 4>(new HellingerResiduals{density, n});
-    cost->AddParameterBlock(n);
-    cost->AddParameterBlock(n);
-    cost->SetNumResiduals(static_cast<int>(density.slope.size()));
-    problem.AddResidualBlock(cost, nullptr, log_alpha.data(), log_weight.data());
-    for (int k = 0; k < n; ++k) {
-        problem.SetParameterLowerBound(log_alpha.data(), k, std::log(min_alpha));
-        problem.SetParameterUpperBound(log_alpha.data(), k, std::log(max_alpha));
-    }
-    const auto heaviest = std::max_element(log_weight.begin(), log_weight.end()) - log_weight.begin();
-    if (count == 1) problem.SetParameterBlockConstant(log_weight.data());
-    else problem.SetManifold(log_weight.data(), hold(count, static_cast<std::size_t>(heaviest)));
+    pose(problem, parameters, density);
 
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = 100;
+    options.max_num_iterations = 200;
+    options.function_tolerance = 1e-12;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    RefineResult result;
-    result.iterations = static_cast<unsigned>(summary.iterations.size());
-    result.message = summary.message;
-    if (!summary.IsSolutionUsable()) {
-        result.lobes = start;
-        return result;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-        const double relative = log_weight[k] - log_weight[static_cast<std::size_t>(heaviest)];
-        const Lobe lobe = {std::exp(relative), std::clamp(std::exp(log_alpha[k]), min_alpha, max_alpha)};
-        if (lobe.weight > 0.0) result.lobes.push_back(lobe);
-    }
-    canonicalise(result.lobes);
+    RefineResult result{start, static_cast<unsigned>(summary.iterations.size()), summary.message};
+    if (summary.IsSolutionUsable()) result.lobes = parameters.lobes();
     return result;
 }
 
