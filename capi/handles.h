@@ -1,9 +1,13 @@
 // The handles of slopemix.h.
 #pragma once
 
+#include <mutex>
+#include <vector>
+
 #include "boundary.h"
 #include "brdf.h"
 #include "context.h"
+#include "fit_material.h"
 #include "image.h"
 #include "material.h"
 
@@ -21,6 +25,18 @@ struct smx_context_s : smx::Handle<smx::Context> {
 };
 struct smx_brdf_s : smx::Handle<const smx::Brdf> {
     using Handle::Handle;
+
+    // The mixture that the reference's sampler mis draws from, fitted on first use.
+    const std::vector<smx::Lobe> &proposal() {
+        std::call_once(proposal_made_, [&] {
+            proposal_ = smx::fit_material(*object, smx::invert(*object, {}), {}).lobes;
+        });
+        return proposal_;
+    }
+
+  private:
+    std::once_flag proposal_made_;
+    std::vector<smx::Lobe> proposal_;
 };
 struct smx_density_s : smx::Handle<const smx::DensityOfBrdf> {
     using Handle::Handle;

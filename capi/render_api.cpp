@@ -17,7 +17,7 @@ Scene to_cpp(const smx_scene &s) {
 }
 
 RenderOptions to_cpp(const smx_render_options &o) {
-    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp, o.seed, static_cast<Lookup>(o.lookup), {}};
+    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp, o.seed, static_cast<Lookup>(o.lookup), o.target_error, {}};
     if (o.progress)
         out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
     return out;
@@ -39,7 +39,10 @@ smx_status render(smx_context context, const void *material, const char *materia
         Rendered rendered = integrator(*context->object, s, o);
         const RenderReport r = rendered.report;
         *image = new smx_image_s(std::make_shared<Image>(std::move(rendered.image)));
-        if (report) *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations};
+        if (report) {
+            *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp,
+                       r.standard_error};
+        }
     });
 }
 
@@ -59,7 +62,8 @@ smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_sc
                                 const smx_render_options *options, smx_image *image, smx_render_report *report) {
     return render(context, brdf, "brdf", scene, options, image, report,
                   [&](Context &c, const Scene &s, const RenderOptions &o) {
-                      return integrate_reference(c, *brdf->object, s, o);
+                      const bool sharp = o.sampler == Sampler::Mis;
+                      return integrate_reference(c, *brdf->object, sharp ? brdf->proposal() : std::vector<Lobe>{}, s, o);
                   });
 }
 

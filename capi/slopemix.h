@@ -303,29 +303,38 @@ typedef struct smx_scene {
 } smx_scene;
 #define SMX_SCENE_INIT {sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED}
 
+/* Where the reference's facets come from. Where one alpha is 0, every sampler spreads all samples along the other axis;
+ * where both are, one sample is exact. */
 typedef enum smx_sampler {
-    SMX_SAMPLER_GRID = 0 /* n x n jittered strata of X's slopes; n^2 strata along the one axis when one alpha is 0 */
+    SMX_SAMPLER_GRID = 0,  /* n x n jittered strata of X's slopes; no estimate of the error */
+    SMX_SAMPLER_SOBOL = 1, /* X's slopes from Owen-scrambled Sobol points */
+    SMX_SAMPLER_MIS = 2    /* half of them from X, half from the base material's own mixture about the half vector, joined
+                            * by the balance heuristic: for sharp materials */
 } smx_sampler;
 
 typedef struct smx_render_options {
     size_t size;
-    smx_sampler sampler; /* these four: reference only */
-    uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid */
+    smx_sampler sampler; /* these five: reference only */
+    uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid, even for mis */
     uint64_t seed;
     smx_lookup lookup;
+    double target_error; /* 0..1; above 0: as many samples, to 2^24, as bring the standard error below it, not spp */
     smx_progress_fn progress; /* or NULL */
     void *progress_user;
 } smx_render_options;
-#define SMX_RENDER_OPTIONS_INIT {sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, NULL, NULL}
+#define SMX_RENDER_OPTIONS_INIT {sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL}
 
 typedef struct smx_render_report {
     size_t size;
     double seconds;         /* the whole call */
     double kernel_seconds;  /* on the device, from OpenCL's events */
     double build_seconds;   /* compiling kernels that were not built yet */
-    uint64_t evaluations;   /* of the integrand: pixels on the sphere times samples */
+    uint64_t evaluations;   /* of the shading or the integrand: pixels (lit ones in a reference) times samples */
+    uint32_t spp;           /* samples per pixel of a reference; 0 for the others */
+    double standard_error;  /* of a reference, from independent scrambles: root mean square over the image's. Negative
+                             * where there is no estimate: the grid, or a number of samples that 16 does not divide */
 } smx_render_report;
-#define SMX_RENDER_REPORT_INIT {sizeof(smx_render_report), 0.0, 0.0, 0.0, 0}
+#define SMX_RENDER_REPORT_INIT {sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0}
 
 typedef struct smx_image_s *smx_image;
 

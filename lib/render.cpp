@@ -44,7 +44,12 @@ void report_progress(const RenderOptions &options, double share) {
 CallTimer::CallTimer(const Context &context) : start_(now()), build_seconds_(context.build_seconds()) {}
 
 RenderReport CallTimer::finish(const Context &context, double kernel_seconds, std::uint64_t evaluations) const {
-    return {now() - start_, kernel_seconds, context.build_seconds() - build_seconds_, evaluations};
+    RenderReport report;
+    report.seconds = now() - start_;
+    report.kernel_seconds = kernel_seconds;
+    report.build_seconds = context.build_seconds() - build_seconds_;
+    report.evaluations = evaluations;
+    return report;
 }
 
 std::string number_text(double value) {

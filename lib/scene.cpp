@@ -80,17 +80,37 @@ DeviceView to_device(const Scene &s) {
             f(-std::sin(turn)), f(std::cos(turn)), f(-std::sin(turn / 2)), f(std::cos(turn / 2))};
 }
 
-std::uint64_t sphere_pixels(const Scene &s) {
-    // Per row, the offsets from the centre, in half pixels, of one parity and with a square below left2.
-    const std::int64_t side = std::min(s.width, s.height), height = s.height;
-    const std::int64_t odd = s.width % 2 == 0 ? 1 : 0;
-    std::uint64_t count = 0;
+namespace {
+
+// Calls visit(right, depth2) for the centre of every pixel on the sphere: its offset and the square of its depth towards
+// the viewer, in half pixels.
+template <typename Visit>
+void visit_sphere(const Scene &s, Visit visit) {
+    const std::int64_t side = std::min(s.width, s.height), width = s.width, height = s.height;
     for (std::int64_t up = 1 - height; up < height; up += 2) {
         const std::int64_t left2 = side * side - up * up;
-        if (left2 <= 0) continue;
-        const auto reach = static_cast<std::int64_t>(std::sqrt(static_cast<double>(left2 - 1)));
-        count += static_cast<std::uint64_t>(odd ? 2 * ((reach + 1) / 2) : 2 * (reach / 2) + 1);
+        // From the first offset of the pixels' parity that lies within.
+        std::int64_t first = left2 > 0 ? -static_cast<std::int64_t>(std::sqrt(static_cast<double>(left2 - 1))) : 0;
+        if ((first + width) % 2 == 0) ++first;
+        for (std::int64_t right = first; right * right < left2; right += 2) visit(right, left2 - right * right);
     }
+}
+
+}  // namespace
+
+std::uint64_t sphere_pixels(const Scene &s) {
+    std::uint64_t count = 0;
+    visit_sphere(s, [&](std::int64_t, std::int64_t) { ++count; });
+    return count;
+}
+
+std::uint64_t lit_pixels(const Scene &s) {
+    const DeviceView view = to_device(s);
+    std::uint64_t count = 0;
+    visit_sphere(s, [&](std::int64_t right, std::int64_t depth2) {
+        const double cos_i = view.wi_x * static_cast<double>(right) + view.wi_y * std::sqrt(static_cast<double>(depth2));
+        count += cos_i > 0.0;
+    });
     return count;
 }
 

@@ -55,7 +55,8 @@ DeviceView to_device(const Scene &scene);
 // Half the angle between light and view, 0..pi/2: one for the whole image.
 double theta_d(const Scene &scene);
 
-// Pixels whose centre lies on the sphere.
+// Pixels whose centre lies on the sphere; of them, those that are turned towards the light.
 std::uint64_t sphere_pixels(const Scene &scene);
+std::uint64_t lit_pixels(const Scene &scene);
 
 }  // namespace smx

@@ -1,0 +1,65 @@
+// Nanoseconds per evaluation of the kernels, from OpenCL's events: filtered shading by number of lobes, and the reference
+// per sample. Every row's time is of one evaluation on the whole device, not of the call.
+#include <vector>
+
+#include "bench.h"
+
+namespace {
+
+
+smx_scene bench_scene(uint32_t side) {
+    smx_scene scene = SMX_SCENE_INIT;
+    scene.width = scene.height = side;
+    scene.displacement = {0.25, 0.25, 0.0, 0.0, 0.0};
+    return scene;
+}
+
+// A mixture of `count` distinct lobes, alphas 0.01 to 1.
+smx_material mixture(size_t count) {
+    std::vector<smx_lobe> lobes;
+    for (size_t k = 0; k < count; ++k) lobes.push_back({1.0, 0.01 + 0.99 * static_cast<double>(k) / 16.0});
+    const double fresnel[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    smx_material material = nullptr;
+    check(smx_material_create("bench", lobes.data(), count, fresnel, 2, &material));
+    return material;
+}
+
+// Runs `render` until the benchmark has enough, with the kernel's seconds per evaluation as its time.
+template <typename Render>
+void measure(benchmark::State &state, Render render) {
+    smx_image warm_up = nullptr;
+    smx_render_report report = SMX_RENDER_REPORT_INIT;
+    check(render(&warm_up, &report));
+    smx_image_release(warm_up);
+    for (auto _ : state) {
+        smx_image image = nullptr;
+        check(render(&image, &report));
+        smx_image_release(image);
+        state.SetIterationTime(report.kernel_seconds);
+    }
+    const double evaluations = static_cast<double>(report.evaluations);
+    state.counters["s/eval"] = benchmark::Counter(
+        evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void shade_shared(benchmark::State &state) {
+    const smx_scene scene = bench_scene(1024);
+    smx_material material = mixture(static_cast<size_t>(state.range(0)));
+    measure(state, [&](smx_image *image, smx_render_report *report) {
+        return smx_render_filtered(shared_context(), material, &scene, nullptr, image, report);
+    });
+    smx_material_release(material);
+}
+BENCHMARK(shade_shared)->Name("shade.shared")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
+
+void reference_grid(benchmark::State &state) {
+    const smx_scene scene = bench_scene(128);
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.spp = 4096;
+    measure(state, [&](smx_image *image, smx_render_report *report) {
+        return smx_render_reference(shared_context(), two_layer(), &scene, &options, image, report);
+    });
+}
+BENCHMARK(reference_grid)->Name("reference.slice.grid")->UseManualTime();
+
+}  // namespace

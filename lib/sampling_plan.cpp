@@ -1,0 +1,87 @@
+#include "sampling_plan.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "brdf.h"
+#include "error.h"
+
+namespace smx {
+
+namespace {
+
+// Enough for an error's error of a quarter, few enough to leave each its share of samples.
+constexpr std::uint32_t scramble_count = 8;
+
+std::uint32_t square_side(std::uint32_t spp) {
+    return static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(spp))));
+}
+
+Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
+    return {Technique::FromX, Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
+}
+
+}  // namespace
+
+std::uint32_t SamplingPlan::samples_per_scramble() const {
+    std::uint32_t sum = 0;
+    for (const Pass &pass : passes) sum += pass.samples;
+    return sum;
+}
+
+void validate(const RenderOptions &o) {
+    require(o.sampler == Sampler::Grid || o.sampler == Sampler::Sobol || o.sampler == Sampler::Mis, "sampler is ",
+            static_cast<int>(o.sampler), "; it must be 0 (grid), 1 (sobol) or 2 (mis)");
+    require(o.lookup == Lookup::Linear || o.lookup == Lookup::Nearest, "lookup is ", static_cast<int>(o.lookup),
+            "; it must be 0 or 1");
+    require(o.spp >= 1 && o.spp <= max_spp, "spp is ", o.spp, "; it must be 1..", max_spp);
+    if (o.sampler == Sampler::Grid) {
+        const std::uint32_t side = square_side(o.spp);
+        require(side * side == o.spp, "spp is ", o.spp, "; the grid needs a square, such as ", side * side);
+    }
+    if (o.sampler == Sampler::Mis) require(o.spp % 2 == 0, "spp is ", o.spp, "; mis needs an even number");
+    require(o.target_error >= 0.0 && o.target_error < 1.0, "target_error is ", o.target_error, "; it must be 0..1");
+    require(o.target_error == 0.0 || o.sampler != Sampler::Grid,
+            "target_error needs the sampler sobol or mis: a grid has no estimate of its error");
+}
+
+SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {
+    const PrincipalAxes x = principal_axes(displacement);
+    if (x.var_1 == 0.0 && x.var_2 == 0.0) return {1, {grid(1, 1)}};
+    const std::uint32_t scrambles = sampler != Sampler::Grid && spp % (2 * scramble_count) == 0 ? scramble_count : 1;
+    const std::uint32_t samples = spp / scrambles;
+    if (x.var_2 == 0.0) return {scrambles, {grid(samples, 1)}};
+    if (x.var_1 == 0.0) return {scrambles, {grid(1, samples)}};
+    switch (sampler) {
+        case Sampler::Sobol: return {scrambles, {{Technique::FromX, Drawing::Sobol, samples}}};
+        case Sampler::Mis:
+            return {scrambles,
+                    {{Technique::FromXBalanced, Drawing::Sobol, samples / 2},
+                     {Technique::AboutWhBalanced, Drawing::AboutZ, samples / 2}}};
+        case Sampler::Grid: break;
+    }
+    return {1, {grid(square_side(spp), square_side(spp))}};
+}
+
+std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass) {
+    // SplitMix64 (Steele, Lea, Flood 2014) over the three.
+    std::uint64_t z = seed + 0x9e3779b97f4a7c15u * (1 + 2 * std::uint64_t{scramble} + pass);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<std::uint32_t>(z ^ (z >> 31));
+}
+
+std::vector<float> proposal_table(const std::vector<Lobe> &lobes) {
+    std::vector<float> table;
+    for (std::size_t k = 0; k < Brdf::theta_h_count; ++k) {
+        const double theta = Brdf::theta_h(k), tangent = std::tan(theta), cosine = std::cos(theta);
+        double density = 0.0;
+        for (const auto &[weight, alpha] : lobes)
+            density += weight / (std::numbers::pi * alpha * alpha) * std::exp(-tangent * tangent / (alpha * alpha));
+        table.push_back(static_cast<float>(density / (cosine * cosine * cosine)));
+    }
+    table.push_back(0.0f);  // at the horizon
+    return table;
+}
+
+}  // namespace smx
