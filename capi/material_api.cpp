@@ -19,7 +19,9 @@ std::shared_ptr<const Material> material_from_arrays(const char *name, const smx
     m.name = name;
     m.source = "memory";
     for (size_t k = 0; k < count; ++k) m.lobes.push_back({lobes[k].weight, lobes[k].alpha});
-    for (size_t c = 0; c < 3; ++c) m.fresnel[c].assign(fresnel + c * knots, fresnel + (c + 1) * knots);
+    m.theta_d = uniform_knots(knots);
+    m.fresnel.resize(1);
+    for (size_t c = 0; c < 3; ++c) m.fresnel[0][c].assign(fresnel + c * knots, fresnel + (c + 1) * knots);
     validate(m);
     canonicalise(m.lobes);
     return std::make_shared<const Material>(std::move(m));
@@ -64,9 +66,9 @@ smx_status smx_material_get_info(smx_material material, smx_material_info *info)
         copy_text(info->name, m.name);
         copy_text(info->source, m.source);
         copy_text(info->sha256, m.sha256);
-        copy_text(info->model, "shared");
+        copy_text(info->model, model_name(m.model));
         info->lobes = static_cast<uint32_t>(m.lobes.size());
-        info->fresnel_knots = static_cast<uint32_t>(m.fresnel[0].size());
+        info->fresnel_knots = static_cast<uint32_t>(m.theta_d.size());
     });
 }
 
@@ -102,10 +104,12 @@ smx_status smx_material_get_fresnel(smx_material material, double *fresnel, size
     return guarded([&] {
         require_pointer(material, "material");
         require_pointer(fresnel, "fresnel");
-        const FresnelCurves &curves = material->object->fresnel;
-        require(count == 3 * curves[0].size(), "count is ", count, "; it must be ", 3 * curves[0].size(),
-                ", three times the knots");
-        for (const std::vector<double> &curve : curves) fresnel = std::copy(curve.begin(), curve.end(), fresnel);
+        const Material &m = *material->object;
+        const std::size_t own = 3 * m.fresnel.size() * m.theta_d.size();
+        require(count == own, "count is ", count, "; it must be ", own, ": 3 channels by ", m.theta_d.size(),
+                " knots by ", m.fresnel.size(), " sets of curves");
+        for (const FresnelCurves &curves : m.fresnel)
+            for (const std::vector<double> &curve : curves) fresnel = std::copy(curve.begin(), curve.end(), fresnel);
     });
 }
 

@@ -23,7 +23,8 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
     m.name = brdf.name();
     m.source = brdf.source();
     m.sha256 = brdf.sha256();
-    m.fresnel = density.fresnel;
+    m.fresnel = {density.fresnel};
+    m.theta_d = uniform_knots(density.fresnel[0].size());
     m.report.inversion_iterations = density.iterations;
 
     // Maximise the likelihood.

@@ -1,5 +1,6 @@
-// A fitted material: a mixture of zero-mean isotropic Beckmann lobes under one Fresnel curve per channel (the thesis's
-// `shared` model): f = F(theta_d) sum_k w_k D_k(wh) G2(wi, wo) / (4 cos_i cos_o).
+// A fitted material: zero-mean isotropic Beckmann lobes and Fresnel curves, in one of two models:
+//   shared    f = F(theta_d) sum_k w_k D_k(wh) G2(wi, wo) / (4 cos_i cos_o), the thesis's
+//   per-lobe  f = sum_k F_k(theta_d) D_k(wh) G2_k(wi, wo) / (4 cos_i cos_o)
 #pragma once
 
 #include <string>
@@ -12,8 +13,13 @@ namespace smx {
 constexpr std::size_t max_lobes = 64;
 constexpr double min_alpha = 1e-4, max_alpha = 1e4;
 
+enum class Model { Shared = 0, PerLobe = 1 };
+
+std::string model_name(Model model);  // "shared", "per-lobe"
+
 struct Lobe {
-    double weight, alpha;
+    double weight;  // share of the mixture; in the per-lobe model, of the energy (energy_shares)
+    double alpha;
 };
 
 struct FitReport {
@@ -26,10 +32,18 @@ struct FitReport {
 
 struct Material {
     std::string name, source, sha256;
-    std::vector<Lobe> lobes;  // in ascending alpha, weights summing to 1
-    FresnelCurves fresnel;
+    Model model = Model::Shared;
+    std::vector<Lobe> lobes;             // in ascending alpha, weights summing to 1
+    std::vector<double> theta_d;         // knots of the curves, ascending from 0 to pi/2
+    std::vector<FresnelCurves> fresnel;  // one set, or one per lobe
     FitReport report;
 };
+
+// theta_d = k pi/2 / (knots - 1).
+std::vector<double> uniform_knots(std::size_t knots);
+
+// Shares of the lobes' energy: mean over the channels of the integral of F_k sin(2 theta_d), summing to 1.
+std::vector<double> energy_shares(const std::vector<double> &theta_d, const std::vector<FresnelCurves> &fresnel);
 
 // Throws InvalidArgument, naming the value, unless lobes and curves are within their ranges.
 void validate(const Material &material);
@@ -37,7 +51,7 @@ void validate(const Material &material);
 // Normalises the weights and sorts by alpha.
 void canonicalise(std::vector<Lobe> &lobes);
 
-// F at an angle in 0..pi/2, linear between the knots.
-Rgb fresnel_at(const FresnelCurves &curves, double theta_d);
+// F of one set of curves at an angle in 0..pi/2, linear between the knots.
+Rgb fresnel_at(const std::vector<double> &knots, const FresnelCurves &curves, double theta_d);
 
 }  // namespace smx

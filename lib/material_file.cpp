@@ -48,16 +48,23 @@ FitReport report_from_json(JsonReader in) {
     return r;
 }
 
+ordered_json curves_to_json(const FresnelCurves &curves) {
+    ordered_json out;
+    for (std::size_t c = 0; c < 3; ++c) out[channel_names[c]] = curves[c];
+    return out;
+}
+
 ordered_json to_json(const Material &m) {
-    ordered_json lobes = ordered_json::array(), fresnel;
+    ordered_json lobes = ordered_json::array(), fresnel = ordered_json::array();
     for (const Lobe &lobe : m.lobes) lobes.push_back({{"weight", lobe.weight}, {"alpha", lobe.alpha}});
-    for (std::size_t c = 0; c < 3; ++c) fresnel[channel_names[c]] = m.fresnel[c];
+    for (const FresnelCurves &curves : m.fresnel) fresnel.push_back(curves_to_json(curves));
     return {{"format", format_name},
             {"version", format_version},
             {"name", m.name},
             {"source", {{"name", m.source}, {"sha256", m.sha256}}},
-            {"model", "shared"},
+            {"model", model_name(m.model)},
             {"lobes", lobes},
+            {"theta_d", m.theta_d},
             {"fresnel", fresnel},
             {"fit", report_to_json(m.report)}};
 }
@@ -74,10 +81,27 @@ std::vector<Lobe> lobes_from_json(const JsonReader &in) {
     return lobes;
 }
 
-std::vector<double> curve_from_json(const JsonReader &in) {
-    std::vector<double> curve;
-    for (std::size_t k = 0; k < in.array_size(); ++k) curve.push_back(in.element(k).number());
-    return curve;
+std::vector<double> numbers_from_json(const JsonReader &in) {
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < in.array_size(); ++k) numbers.push_back(in.element(k).number());
+    return numbers;
+}
+
+std::vector<FresnelCurves> fresnel_from_json(const JsonReader &in) {
+    std::vector<FresnelCurves> sets;
+    for (std::size_t set = 0; set < in.array_size(); ++set) {
+        JsonReader curves = in.element(set);
+        sets.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c) sets.back()[c] = numbers_from_json(curves.member(channel_names[c]));
+        curves.finish();
+    }
+    return sets;
+}
+
+Model model_from_json(const JsonReader &in) {
+    for (Model model : {Model::Shared, Model::PerLobe})
+        if (in.string() == model_name(model)) return model;
+    in.refuse(text("is \"", in.string(), "\"; it must be \"shared\" or \"per-lobe\""));
 }
 
 Material from_json(const json &document) {
@@ -86,7 +110,6 @@ Material from_json(const json &document) {
     const unsigned version = in.member("version").count();
     if (version != format_version)
         in.member("version").refuse(text("is ", version, "; this library reads ", format_version));
-    if (in.member("model").string() != "shared") in.member("model").refuse("must be \"shared\"");
 
     Material m;
     m.name = in.member("name").string();
@@ -94,10 +117,10 @@ Material from_json(const json &document) {
     m.source = source.member("name").string();
     m.sha256 = source.member("sha256").string();
     source.finish();
+    m.model = model_from_json(in.member("model"));
     m.lobes = lobes_from_json(in.member("lobes"));
-    JsonReader fresnel = in.member("fresnel");
-    for (std::size_t c = 0; c < 3; ++c) m.fresnel[c] = curve_from_json(fresnel.member(channel_names[c]));
-    fresnel.finish();
+    m.theta_d = numbers_from_json(in.member("theta_d"));
+    m.fresnel = fresnel_from_json(in.member("fresnel"));
     m.report = report_from_json(in.member("fit"));
     in.finish();
     return m;

@@ -22,7 +22,8 @@ struct DeviceLobe {
 std::vector<DeviceLobe> widened_lobes(const Material &material, const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
     std::vector<DeviceLobe> lobes;
-    for (const auto &[weight, alpha] : material.lobes) {
+    for (const auto &[share, alpha] : material.lobes) {
+        const double weight = material.model == Model::Shared ? share : 1.0;
         const double alpha2 = alpha * alpha, var_1 = alpha2 + axes.var_1, var_2 = alpha2 + axes.var_2;
         const double peak = weight / (std::numbers::pi * std::sqrt(var_1) * std::sqrt(var_2));
         lobes.push_back({static_cast<float>(weight), static_cast<float>(alpha2), static_cast<float>(1.0 / var_1),
@@ -31,13 +32,34 @@ std::vector<DeviceLobe> widened_lobes(const Material &material, const Displaceme
     return lobes;
 }
 
-Defines defines(Masking masking) { return {{"G2_SEPARABLE", masking == Masking::Separable}}; }
+Defines defines(Model model, Masking masking) {
+    return {{"PER_LOBE", model == Model::PerLobe}, {"G2_SEPARABLE", masking == Masking::Separable}};
+}
 
-std::vector<float> device_fresnel(const FresnelCurves &curves) {
+// F at one angle, one entry per set of curves.
+std::vector<cl_float4> fresnel_at_angle(const Material &material, double theta_d) {
+    std::vector<cl_float4> values;
+    for (const FresnelCurves &curves : material.fresnel) {
+        const Rgb f = fresnel_at(material.theta_d, curves, theta_d);
+        values.push_back({{static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2]), 0.0f}});
+    }
+    return values;
+}
+
+// All curves, as cl/fresnel.clh reads them.
+std::vector<float> packed_curves(const Material &material) {
     std::vector<float> packed;
-    for (const std::vector<double> &curve : curves)
-        for (double f : curve) packed.push_back(static_cast<float>(f));
+    for (const FresnelCurves &curves : material.fresnel)
+        for (const std::vector<double> &curve : curves)
+            for (double f : curve) packed.push_back(static_cast<float>(f));
     return packed;
+}
+
+// The knots over pi/2.
+std::vector<float> packed_knots(const Material &material) {
+    std::vector<float> knots;
+    for (double angle : material.theta_d) knots.push_back(static_cast<float>(angle / (std::numbers::pi / 2)));
+    return knots;
 }
 
 // [count][3] to [3][stride], stride a multiple of the vector width; what pads it are directions below the surface.
@@ -58,11 +80,10 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     report_progress(options, 0.0);
 
     const std::vector<DeviceLobe> lobes = widened_lobes(material, scene.displacement);
-    const Rgb f = fresnel_at(material.fresnel, theta_d(scene));
-    const cl_float4 fresnel = {{static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2]), 0.0f}};
+    const cl::Buffer fresnel = buffer_from(context, fresnel_at_angle(material, theta_d(scene)));
     const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene));
     const cl::Buffer lobe_buffer = buffer_from(context, lobes);
-    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_sphere", defines(scene.masking));
+    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking));
     kernel.setArg(0, rgba);
     kernel.setArg(1, to_device(scene));
     kernel.setArg(3, to_device(scene.displacement));
@@ -83,7 +104,7 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     }
     describe(result.image, "filtered", scene);
     result.image.attributes["slopemix.material"] = material.name;
-    result.image.attributes["slopemix.model"] = "shared";
+    result.image.attributes["slopemix.model"] = model_name(material.model);
     result.image.attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
     result.report = timer.finish(context, time.seconds(), sphere_pixels(scene));
     return result;
@@ -101,12 +122,13 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
 
     const auto lock = context.lock();
     const std::vector<DeviceLobe> lobes = widened_lobes(material, displacement);
-    const std::vector<float> fresnel = device_fresnel(material.fresnel);
     const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
-    const cl::Buffer lobe_buffer = buffer_from(context, lobes), fresnel_buffer = buffer_from(context, fresnel);
-    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(masking));
+    const cl::Buffer lobe_buffer = buffer_from(context, lobes);
+    const cl::Buffer curves = buffer_from(context, packed_curves(material));
+    const cl::Buffer knots = buffer_from(context, packed_knots(material));
+    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(material.model, masking));
     kernel.setArg(0, out);
     kernel.setArg(1, static_cast<cl_int>(stride));
     kernel.setArg(2, wi_buffer);
@@ -114,8 +136,9 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
     kernel.setArg(4, to_device(displacement));
     kernel.setArg(5, lobe_buffer);
     kernel.setArg(6, static_cast<cl_int>(lobes.size()));
-    kernel.setArg(7, fresnel_buffer);
-    kernel.setArg(8, static_cast<cl_int>(material.fresnel[0].size()));
+    kernel.setArg(7, curves);
+    kernel.setArg(8, knots);
+    kernel.setArg(9, static_cast<cl_int>(material.theta_d.size()));
     context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(stride / context.width()));
 
     std::vector<float> planes(3 * stride);
