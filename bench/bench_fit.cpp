@@ -12,10 +12,11 @@ void invert(benchmark::State &state) {
 }
 BENCHMARK(invert)->Name("fit.inversion")->Unit(benchmark::kMillisecond);
 
-void fit_mixture(benchmark::State &state) {
+void fit(benchmark::State &state, smx_model model) {
     smx_density density = nullptr;
     check(smx_density_create(two_layer(), nullptr, &density));
     smx_fit_options options = SMX_FIT_OPTIONS_INIT;
+    options.model = model;
     options.lobes = static_cast<uint32_t>(state.range(0));
     for (auto _ : state) {
         smx_material material = nullptr;
@@ -24,6 +25,9 @@ void fit_mixture(benchmark::State &state) {
     }
     smx_density_release(density);
 }
-BENCHMARK(fit_mixture)->Name("fit.mixture")->ArgName("n")->Arg(1)->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fit, shared, SMX_MODEL_SHARED)
+    ->Name("fit.shared")->ArgName("n")->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fit, per_lobe, SMX_MODEL_PER_LOBE)
+    ->Name("fit.per-lobe")->ArgName("n")->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 
 }  // namespace

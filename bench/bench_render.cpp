@@ -14,13 +14,19 @@ smx_scene bench_scene(uint32_t side) {
     return scene;
 }
 
-// A mixture of `count` distinct lobes, alphas 0.01 to 1.
-smx_material mixture(size_t count) {
+// `count` distinct lobes, alphas 0.01 to 1, under flat curves.
+smx_material make_lobes(smx_model model, size_t count) {
     std::vector<smx_lobe> lobes;
     for (size_t k = 0; k < count; ++k) lobes.push_back({1.0, 0.01 + 0.99 * static_cast<double>(k) / 16.0});
-    const double fresnel[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const std::vector<double> fresnel(6 * count, 1.0);
+    smx_material_desc desc = SMX_MATERIAL_DESC_INIT;
+    desc.model = model;
+    desc.lobes = lobes.data();
+    desc.lobe_count = count;
+    desc.knots = 2;
+    desc.fresnel = fresnel.data();
     smx_material material = nullptr;
-    check(smx_material_create("bench", lobes.data(), count, fresnel, 2, &material));
+    check(smx_material_create(&desc, &material));
     return material;
 }
 
@@ -42,24 +48,30 @@ void measure(benchmark::State &state, Render render) {
         evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void shade_shared(benchmark::State &state) {
+void shade(benchmark::State &state, smx_model model) {
     const smx_scene scene = bench_scene(1024);
-    smx_material material = mixture(static_cast<size_t>(state.range(0)));
+    smx_material material = make_lobes(model, static_cast<size_t>(state.range(0)));
     measure(state, [&](smx_image *image, smx_render_report *report) {
         return smx_render_filtered(shared_context(), material, &scene, nullptr, image, report);
     });
     smx_material_release(material);
 }
-BENCHMARK(shade_shared)->Name("shade.shared")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
+BENCHMARK_CAPTURE(shade, shared, SMX_MODEL_SHARED)
+    ->Name("shade.shared")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
+BENCHMARK_CAPTURE(shade, per_lobe, SMX_MODEL_PER_LOBE)
+    ->Name("shade.per-lobe")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
 
-void reference_grid(benchmark::State &state) {
+void reference(benchmark::State &state, smx_sampler sampler) {
     const smx_scene scene = bench_scene(128);
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.sampler = sampler;
     options.spp = 4096;
     measure(state, [&](smx_image *image, smx_render_report *report) {
         return smx_render_reference(shared_context(), two_layer(), &scene, &options, image, report);
     });
 }
-BENCHMARK(reference_grid)->Name("reference.slice.grid")->UseManualTime();
+BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID)->Name("reference.slice.grid")->UseManualTime();
+BENCHMARK_CAPTURE(reference, sobol, SMX_SAMPLER_SOBOL)->Name("reference.slice.sobol")->UseManualTime();
+BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS)->Name("reference.slice.mis")->UseManualTime();
 
 }  // namespace

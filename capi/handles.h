@@ -29,7 +29,9 @@ struct smx_brdf_s : smx::Handle<const smx::Brdf> {
     // The mixture that the reference's sampler mis draws from, fitted on first use.
     const std::vector<smx::Lobe> &proposal() {
         std::call_once(proposal_made_, [&] {
-            proposal_ = smx::fit_material(*object, smx::invert(*object, {}), {}).lobes;
+            smx::FitOptions options;
+            options.model = smx::Model::Shared;
+            proposal_ = smx::fit_material(*object, smx::invert(*object, {}), options).lobes;
         });
         return proposal_;
     }

@@ -9,22 +9,43 @@ using namespace smx;
 
 namespace {
 
-FitOptions to_cpp(const smx_fit_options &o) { return {o.lobes, o.tolerance, o.max_iterations, o.refine != 0}; }
+FitOptions to_cpp(const smx_fit_options &o) {
+    return {static_cast<Model>(o.model), o.lobes, o.tolerance, o.max_iterations, o.refine != 0};
+}
 
-std::shared_ptr<const Material> material_from_arrays(const char *name, const smx_lobe *lobes, size_t count,
-                                                     const double *fresnel, size_t knots) {
-    require(count >= 1 && count <= max_lobes, "count is ", count, "; it must be 1..", max_lobes);
-    require(knots >= 2 && knots <= 4096, "knots is ", knots, "; it must be 2..4096");
+std::vector<FresnelCurves> curves_from_array(const double *values, std::size_t sets, std::size_t knots) {
+    std::vector<FresnelCurves> curves(sets);
+    for (FresnelCurves &set : curves)
+        for (std::vector<double> &curve : set) {
+            curve.assign(values, values + knots);
+            values += knots;
+        }
+    return curves;
+}
+
+Material material_from_arrays(const smx_material_desc &d) {
+    require_pointer(d.name, "desc->name");
+    require_pointer(d.lobes, "desc->lobes");
+    require_pointer(d.fresnel, "desc->fresnel");
+    require(d.model == SMX_MODEL_SHARED || d.model == SMX_MODEL_PER_LOBE, "desc->model is ", static_cast<int>(d.model),
+            "; it must be 0 (shared) or 1 (per-lobe)");
+    require(d.lobe_count >= 1 && d.lobe_count <= max_lobes, "desc->lobe_count is ", d.lobe_count, "; it must be 1..",
+            max_lobes);
+    require(d.knots >= 2 && d.knots <= 4096, "desc->knots is ", d.knots, "; it must be 2..4096");
     Material m;
-    m.name = name;
+    m.name = d.name;
     m.source = "memory";
-    for (size_t k = 0; k < count; ++k) m.lobes.push_back({lobes[k].weight, lobes[k].alpha});
-    m.theta_d = uniform_knots(knots);
-    m.fresnel.resize(1);
-    for (size_t c = 0; c < 3; ++c) m.fresnel[0][c].assign(fresnel + c * knots, fresnel + (c + 1) * knots);
+    m.model = static_cast<Model>(d.model);
+    m.theta_d = d.theta_d ? std::vector<double>(d.theta_d, d.theta_d + d.knots) : uniform_knots(d.knots);
+    m.fresnel = curves_from_array(d.fresnel, m.model == Model::Shared ? 1 : d.lobe_count, d.knots);
+    for (size_t k = 0; k < d.lobe_count; ++k) m.lobes.push_back({d.lobes[k].weight, d.lobes[k].alpha});
+    if (m.model == Model::PerLobe) {
+        const std::vector<double> shares = energy_shares(m.theta_d, m.fresnel);
+        for (size_t k = 0; k < d.lobe_count; ++k) m.lobes[k].weight = shares[k];
+    }
     validate(m);
-    canonicalise(m.lobes);
-    return std::make_shared<const Material>(std::move(m));
+    canonicalise(m);
+    return m;
 }
 
 smx_material new_handle(Material material) {
@@ -44,14 +65,11 @@ smx_status smx_material_fit(smx_density density, const smx_fit_options *options,
     });
 }
 
-smx_status smx_material_create(const char *name, const smx_lobe *lobes, size_t count, const double *fresnel,
-                               size_t knots, smx_material *material) {
+smx_status smx_material_create(const smx_material_desc *desc, smx_material *material) {
     return guarded([&] {
-        require_pointer(name, "name");
-        require_pointer(lobes, "lobes");
-        require_pointer(fresnel, "fresnel");
+        require_pointer(desc, "desc");
         require_pointer(material, "material");
-        *material = new smx_material_s(material_from_arrays(name, lobes, count, fresnel, knots));
+        *material = new_handle(material_from_arrays(checked(desc, SMX_MATERIAL_DESC_INIT, "desc")));
     });
 }
 
@@ -66,9 +84,10 @@ smx_status smx_material_get_info(smx_material material, smx_material_info *info)
         copy_text(info->name, m.name);
         copy_text(info->source, m.source);
         copy_text(info->sha256, m.sha256);
-        copy_text(info->model, model_name(m.model));
+        info->model = static_cast<smx_model>(m.model);
         info->lobes = static_cast<uint32_t>(m.lobes.size());
         info->fresnel_knots = static_cast<uint32_t>(m.theta_d.size());
+        info->fresnel_sets = static_cast<uint32_t>(m.fresnel.size());
     });
 }
 
@@ -85,8 +104,12 @@ smx_status smx_material_get_report(smx_material material, smx_fit_report *report
         report->log_likelihood = r.log_likelihood;
         report->residual_em = r.residual_em;
         report->residual = r.residual;
-        report->seconds = r.seconds;
         copy_text(report->refine_message, r.refine_message);
+        report->curve_iterations = r.curve_iterations;
+        report->brdf_residual_start = r.brdf_residual_start;
+        report->brdf_residual = r.brdf_residual;
+        copy_text(report->curve_message, r.curve_message);
+        report->seconds = r.seconds;
     });
 }
 
@@ -100,16 +123,17 @@ smx_status smx_material_get_lobes(smx_material material, smx_lobe *lobes, size_t
     });
 }
 
-smx_status smx_material_get_fresnel(smx_material material, double *fresnel, size_t count) {
+smx_status smx_material_get_fresnel(smx_material material, double *theta_d, double *fresnel, size_t count) {
     return guarded([&] {
         require_pointer(material, "material");
-        require_pointer(fresnel, "fresnel");
         const Material &m = *material->object;
         const std::size_t own = 3 * m.fresnel.size() * m.theta_d.size();
         require(count == own, "count is ", count, "; it must be ", own, ": 3 channels by ", m.theta_d.size(),
                 " knots by ", m.fresnel.size(), " sets of curves");
+        if (theta_d) std::copy(m.theta_d.begin(), m.theta_d.end(), theta_d);
         for (const FresnelCurves &curves : m.fresnel)
-            for (const std::vector<double> &curve : curves) fresnel = std::copy(curve.begin(), curve.end(), fresnel);
+            for (const std::vector<double> &curve : curves)
+                if (fresnel) fresnel = std::copy(curve.begin(), curve.end(), fresnel);
     });
 }
 

@@ -207,18 +207,24 @@ SMX_API smx_status smx_density_get_nodes(smx_density density, double *slope, dou
 #define SMX_MAX_LOBES 64
 
 typedef struct smx_lobe {
-    double weight; /* share of the mixture, > 0; the weights of a material sum to 1 */
+    double weight; /* share of the mixture, > 0; per-lobe: share of the energy, told by the curves. They sum to 1 */
     double alpha;  /* 1e-4..1e4 */
 } smx_lobe;
 
+typedef enum smx_model {
+    SMX_MODEL_SHARED = 0,  /* f = F(theta_d) sum_k w_k D_k(wh) G2(wi, wo) / (4 cos_i cos_o): the thesis's */
+    SMX_MODEL_PER_LOBE = 1 /* f = sum_k F_k(theta_d) D_k(wh) G2_k(wi, wo) / (4 cos_i cos_o) */
+} smx_model;
+
 typedef struct smx_fit_options {
     size_t size;
+    smx_model model;
     uint32_t lobes;          /* 1..SMX_MAX_LOBES; the fit may end with fewer where lobes merge or die */
     double tolerance;        /* EM stops when the mean log likelihood gains less than this, > 0 */
     uint32_t max_iterations; /* of EM, 1..1000000 */
     int refine;              /* nonzero: least-squares refinement of weights and alphas (Ceres) after EM */
 } smx_fit_options;
-#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), 8, 1e-6, 20000, 1}
+#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), SMX_MODEL_PER_LOBE, 8, 1e-6, 20000, 1}
 
 typedef struct smx_fit_report {
     size_t size;
@@ -230,13 +236,16 @@ typedef struct smx_fit_report {
     double log_likelihood;        /* the same after the refinement */
     double residual_em;           /* Hellinger distance of density and mixture, 0..1 */
     double residual;              /* the same after the refinement */
-    double seconds;
     char refine_message[256];     /* the solver's verdict; "" without refinement */
+    uint32_t curve_iterations;    /* the per-lobe model's refinement in BRDF space: its iterations, */
+    double brdf_residual_start;   /*   relative error in BRDF space before it (root mean square over theta_d), */
+    double brdf_residual;         /*   after it, */
+    char curve_message[256];      /*   and the solver's verdict */
+    double seconds;
 } smx_fit_report;
-#define SMX_FIT_REPORT_INIT {sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, ""}
+#define SMX_FIT_REPORT_INIT {sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, "", 0.0}
 
-/* A mixture of zero-mean isotropic Beckmann lobes under one Fresnel curve per channel (the thesis's `shared` model):
- * f = F(theta_d) sum_k w_k D_k(wh) G2(wi, wo) / (4 cos_i cos_o). Lobes in ascending alpha. Immutable. */
+/* Zero-mean isotropic Beckmann lobes, in ascending alpha, with their Fresnel curves (smx_model). Immutable. */
 typedef struct smx_material_s *smx_material;
 
 typedef struct smx_material_info {
@@ -244,20 +253,33 @@ typedef struct smx_material_info {
     char name[128];
     char source[512];
     char sha256[65];     /* of the source table; "" for a material made from arrays */
-    char model[16];      /* "shared" */
+    smx_model model;
     uint32_t lobes;
     uint32_t fresnel_knots;
+    uint32_t fresnel_sets; /* of three curves: 1 for the shared model, else one per lobe */
 } smx_material_info;
-#define SMX_MATERIAL_INFO_INIT {sizeof(smx_material_info), "", "", "", "", 0, 0}
+#define SMX_MATERIAL_INFO_INIT {sizeof(smx_material_info), "", "", "", SMX_MODEL_SHARED, 0, 0, 0}
 
-/* Fits `lobes` lobes to a slope density: EM in log space, then Ceres. The density's Fresnel curves are taken over.
+/* Fits `lobes` lobes to a slope density: EM in log space, then Ceres; the shared model takes over the density's Fresnel
+ * curves, the per-lobe model fits its own to the table and refines alphas and curves together.
  * Statuses: INVALID_ARGUMENT, NO_SOLUTION, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_fit(smx_density density, const smx_fit_options *options, smx_material *material);
 
-/* From arrays: lobes [count] (weights are normalised to sum to 1), fresnel [3][knots] at theta_d = k pi/2/(knots-1)
- * for k = 0..knots-1, values >= 0, knots >= 2. Statuses: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-SMX_API smx_status smx_material_create(const char *name, const smx_lobe *lobes, size_t count, const double *fresnel,
-                                       size_t knots, smx_material *material);
+/* What a material is made of, for smx_material_create. */
+typedef struct smx_material_desc {
+    size_t size;
+    const char *name;
+    smx_model model;
+    const smx_lobe *lobes; /* [lobe_count]; shared: weights are normalised to sum to 1; per-lobe: weights are not read */
+    size_t lobe_count;     /* 1..SMX_MAX_LOBES */
+    const double *theta_d; /* [knots] ascending from 0 to pi/2; NULL: equidistant */
+    size_t knots;          /* 2..4096 */
+    const double *fresnel; /* [sets][3][knots], values >= 0, linear between the knots; sets: 1, or per-lobe lobe_count */
+} smx_material_desc;
+#define SMX_MATERIAL_DESC_INIT {sizeof(smx_material_desc), "material", SMX_MODEL_SHARED, NULL, 0, NULL, 0, NULL}
+
+/* From arrays, which are copied. Statuses: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+SMX_API smx_status smx_material_create(const smx_material_desc *desc, smx_material *material);
 SMX_API smx_status smx_material_retain(smx_material material);
 SMX_API void smx_material_release(smx_material material);
 SMX_API smx_status smx_material_get_info(smx_material material, smx_material_info *info);
@@ -268,9 +290,9 @@ SMX_API smx_status smx_material_get_report(smx_material material, smx_fit_report
 /* Copies the lobes; `count` must be info.lobes. Statuses: INVALID_ARGUMENT. */
 SMX_API smx_status smx_material_get_lobes(smx_material material, smx_lobe *lobes, size_t count);
 
-/* Copies the Fresnel curves [3][knots] at theta_d = k pi/2/(knots-1). `count` must be 3 * info.fresnel_knots.
+/* Copies the curves: theta_d [knots], fresnel [sets][3][knots]; `count` must be sets * 3 * knots. Either may be NULL.
  * Statuses: INVALID_ARGUMENT. */
-SMX_API smx_status smx_material_get_fresnel(smx_material material, double *fresnel, size_t count);
+SMX_API smx_status smx_material_get_fresnel(smx_material material, double *theta_d, double *fresnel, size_t count);
 
 /* Material files are JSON, schema in docs/material-format.md. Saving is atomic. Loading refuses an unknown version, a
  * missing or unknown key and a value of the wrong type or range, and names its path in the message.

@@ -5,11 +5,14 @@
 
 #include "em.h"
 #include "error.h"
+#include "fit_per_lobe.h"
 #include "refine.h"
 
 namespace smx {
 
 void validate(const FitOptions &o) {
+    require(o.model == Model::Shared || o.model == Model::PerLobe, "model is ", static_cast<int>(o.model),
+            "; it must be 0 (shared) or 1 (per-lobe)");
     require(o.lobes >= 1 && o.lobes <= max_lobes, "lobes is ", o.lobes, "; it must be 1..", max_lobes);
     require(o.tolerance > 0.0 && std::isfinite(o.tolerance), "tolerance is ", o.tolerance, "; it must be above 0");
     require(o.max_iterations >= 1 && o.max_iterations <= 1000000, "max_iterations is ", o.max_iterations,
@@ -45,6 +48,7 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
     merge_redundant(m.lobes, density);
     m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
     m.report.residual = hellinger(m.lobes, density);
+    if (options.model == Model::PerLobe) fit_per_lobe(brdf, m, options.refine);
     m.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     validate(m);
     return m;

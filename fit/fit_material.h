@@ -1,4 +1,5 @@
-// The fit, from measured table to material: inversion (lib/slope_density.h), EM (em.h), Ceres (refine.h).
+// The fit, from measured table to material: inversion (lib/slope_density.h), EM (em.h), Ceres
+// (refine.h), and for the per-lobe model its curves (fit_per_lobe.h).
 #pragma once
 
 #include "brdf.h"
@@ -7,6 +8,7 @@
 namespace smx {
 
 struct FitOptions {
+    Model model = Model::PerLobe;
     unsigned lobes = 8;
     double tolerance = 1e-6;
     unsigned max_iterations = 20000;

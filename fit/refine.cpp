@@ -1,16 +1,10 @@
 #include "refine.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <ceres/ceres.h>
-#pragma GCC diagnostic pop
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "ceres_solver.h"
 #include "em.h"
 
 namespace smx {

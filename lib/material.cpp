@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "error.h"
 
@@ -76,7 +77,20 @@ void canonicalise(std::vector<Lobe> &lobes) {
     double total = 0.0;
     for (const Lobe &lobe : lobes) total += lobe.weight;
     for (Lobe &lobe : lobes) lobe.weight /= total;
-    std::sort(lobes.begin(), lobes.end(), [](const Lobe &a, const Lobe &b) { return a.alpha < b.alpha; });
+    std::stable_sort(lobes.begin(), lobes.end(), [](const Lobe &a, const Lobe &b) { return a.alpha < b.alpha; });
+}
+
+void canonicalise(Material &m) {
+    if (m.model == Model::PerLobe) {
+        std::vector<std::size_t> order(m.lobes.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return m.lobes[a].alpha < m.lobes[b].alpha; });
+        std::vector<FresnelCurves> sorted;
+        for (std::size_t k : order) sorted.push_back(std::move(m.fresnel[k]));
+        m.fresnel = std::move(sorted);
+    }
+    canonicalise(m.lobes);
 }
 
 Rgb fresnel_at(const std::vector<double> &knots, const FresnelCurves &curves, double theta_d) {

@@ -26,8 +26,12 @@ struct FitReport {
     unsigned inversion_iterations = 0, em_iterations = 0, refine_iterations = 0;
     double log_likelihood_em = 0.0, log_likelihood = 0.0;
     double residual_em = 0.0, residual = 0.0;
-    double seconds = 0.0;
     std::string refine_message;
+    // Of the per-lobe model.
+    unsigned curve_iterations = 0;
+    double brdf_residual_start = 0.0, brdf_residual = 0.0;
+    std::string curve_message;
+    double seconds = 0.0;
 };
 
 struct Material {
@@ -48,8 +52,9 @@ std::vector<double> energy_shares(const std::vector<double> &theta_d, const std:
 // Throws InvalidArgument, naming the value, unless lobes and curves are within their ranges.
 void validate(const Material &material);
 
-// Normalises the weights and sorts by alpha.
+// Normalises the weights and sorts by alpha; of a material, the curves with their lobes.
 void canonicalise(std::vector<Lobe> &lobes);
+void canonicalise(Material &material);
 
 // F of one set of curves at an angle in 0..pi/2, linear between the knots.
 Rgb fresnel_at(const std::vector<double> &knots, const FresnelCurves &curves, double theta_d);

@@ -29,8 +29,12 @@ ordered_json report_to_json(const FitReport &r) {
             {"log_likelihood", r.log_likelihood},
             {"residual_em", r.residual_em},
             {"residual", r.residual},
-            {"seconds", r.seconds},
-            {"refine_message", r.refine_message}};
+            {"refine_message", r.refine_message},
+            {"curve_iterations", r.curve_iterations},
+            {"brdf_residual_start", r.brdf_residual_start},
+            {"brdf_residual", r.brdf_residual},
+            {"curve_message", r.curve_message},
+            {"seconds", r.seconds}};
 }
 
 FitReport report_from_json(JsonReader in) {
@@ -44,6 +48,10 @@ FitReport report_from_json(JsonReader in) {
     r.residual = in.member("residual").number();
     r.seconds = in.member("seconds").number();
     r.refine_message = in.member("refine_message").string();
+    r.curve_iterations = in.member("curve_iterations").count();
+    r.brdf_residual_start = in.member("brdf_residual_start").number();
+    r.brdf_residual = in.member("brdf_residual").number();
+    r.curve_message = in.member("curve_message").string();
     in.finish();
     return r;
 }
