@@ -108,6 +108,8 @@ Integration::Integration(Context &context, const Brdf &brdf, const std::vector<L
     const DeviceDisplacement x = to_device(scene.displacement);
     for (const Pass &pass : plan_.passes) passes_.push_back(make_pass(pass, defines, x));
     make_closing_kernels(defines, x);
+    // Lanes past the last facet are computed and dropped, so what they read must be numbers.
+    context.queue().enqueueFillBuffer(facets_, 0.0f, 0, facet_planes * stride_ * sizeof(float));
     const std::size_t bytes = band_pixels(scene) * sizeof(cl_float4);
     context.queue().enqueueFillBuffer(sums_, 0.0f, 0, bytes);
     context.queue().enqueueFillBuffer(rests_, 0.0f, 0, bytes);
