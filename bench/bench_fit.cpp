@@ -26,8 +26,16 @@ void fit(benchmark::State &state, smx_model model) {
     smx_density_release(density);
 }
 BENCHMARK_CAPTURE(fit, shared, SMX_MODEL_SHARED)
-    ->Name("fit.shared")->ArgName("n")->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
+    ->Name("fit.shared")
+    ->ArgName("n")
+    ->Arg(1)
+    ->Arg(8)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fit, per_lobe, SMX_MODEL_PER_LOBE)
-    ->Name("fit.per-lobe")->ArgName("n")->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
+    ->Name("fit.per-lobe")
+    ->ArgName("n")
+    ->Arg(1)
+    ->Arg(8)
+    ->Unit(benchmark::kMillisecond);
 
-}  // namespace
+} // namespace

@@ -1,11 +1,10 @@
-// Nanoseconds per evaluation of the kernels, from OpenCL's events: filtered shading by number of lobes, and the reference
-// per sample. Every row's time is of one evaluation on the whole device, not of the call.
+// Nanoseconds per evaluation of the kernels, from OpenCL's events: filtered shading by number of lobes, and the
+// reference per sample. Every row's time is of one evaluation on the whole device, not of the call.
 #include <vector>
 
 #include "bench.h"
 
 namespace {
-
 
 smx_scene bench_scene(uint32_t side) {
     smx_scene scene = SMX_SCENE_INIT;
@@ -44,8 +43,8 @@ void measure(benchmark::State &state, Render render) {
         state.SetIterationTime(report.kernel_seconds);
     }
     const double evaluations = static_cast<double>(report.evaluations);
-    state.counters["s/eval"] = benchmark::Counter(
-        evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["s/eval"] =
+        benchmark::Counter(evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void shade(benchmark::State &state, smx_model model) {
@@ -57,9 +56,17 @@ void shade(benchmark::State &state, smx_model model) {
     smx_material_release(material);
 }
 BENCHMARK_CAPTURE(shade, shared, SMX_MODEL_SHARED)
-    ->Name("shade.shared")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
+    ->Name("shade.shared")
+    ->ArgName("n")
+    ->RangeMultiplier(2)
+    ->Range(1, 16)
+    ->UseManualTime();
 BENCHMARK_CAPTURE(shade, per_lobe, SMX_MODEL_PER_LOBE)
-    ->Name("shade.per-lobe")->ArgName("n")->RangeMultiplier(2)->Range(1, 16)->UseManualTime();
+    ->Name("shade.per-lobe")
+    ->ArgName("n")
+    ->RangeMultiplier(2)
+    ->Range(1, 16)
+    ->UseManualTime();
 
 void reference(benchmark::State &state, smx_sampler sampler) {
     const smx_scene scene = bench_scene(128);
@@ -74,4 +81,4 @@ BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID)->Name("reference.slice.grid
 BENCHMARK_CAPTURE(reference, sobol, SMX_SAMPLER_SOBOL)->Name("reference.slice.sobol")->UseManualTime();
 BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS)->Name("reference.slice.mis")->UseManualTime();
 
-}  // namespace
+} // namespace

@@ -43,12 +43,12 @@ static_assert(static_cast<int>(Fault::Cancelled) == SMX_CANCELLED);
 static_assert(static_cast<int>(Fault::Internal) == SMX_INTERNAL);
 
 const StatusText *find_status(smx_status status) noexcept {
-    const auto *found = std::find_if(std::begin(statuses), std::end(statuses),
-                                     [&](const StatusText &s) { return s.status == status; });
+    const auto *found =
+        std::find_if(std::begin(statuses), std::end(statuses), [&](const StatusText &s) { return s.status == status; });
     return found == std::end(statuses) ? nullptr : found;
 }
 
-}  // namespace
+} // namespace
 
 void set_last_error(const char *message) noexcept {
     std::strncpy(last_error, message, sizeof last_error - 1);
@@ -77,7 +77,7 @@ smx_status translate_exception() noexcept {
     }
 }
 
-}  // namespace smx
+} // namespace smx
 
 extern "C" {
 

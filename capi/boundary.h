@@ -78,4 +78,4 @@ void release(H *handle) noexcept {
     if (handle && handle->references.fetch_sub(1) == 1) delete handle;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -33,7 +33,7 @@ void copy_nodes(const std::vector<double> &from, double *to) {
     if (to) std::copy(from.begin(), from.end(), to);
 }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 

@@ -29,7 +29,7 @@ std::shared_ptr<Context> make_context(const smx_context_options &o) {
     return std::make_shared<Context>(context, queue, o.vector_width);
 }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 

@@ -18,7 +18,7 @@ struct DensityOfBrdf {
     SlopeDensity density;
 };
 
-}  // namespace smx
+} // namespace smx
 
 struct smx_context_s : smx::Handle<smx::Context> {
     using Handle::Handle;

@@ -9,7 +9,7 @@ namespace {
 
 smx_image new_handle(Image image) { return new smx_image_s(std::make_shared<Image>(std::move(image))); }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 
@@ -50,7 +50,8 @@ smx_status smx_image_set_attribute(smx_image image, const char *key, const char 
 const char *smx_image_get_attribute(smx_image image, const char *key) {
     if (!image || !key) return nullptr;
     const auto &attributes = image->object->attributes;
-    const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const auto &a) { return a.first == key; });
+    const auto found =
+        std::find_if(attributes.begin(), attributes.end(), [&](const auto &a) { return a.first == key; });
     return found == attributes.end() ? nullptr : found->second.c_str();
 }
 

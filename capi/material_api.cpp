@@ -52,7 +52,7 @@ smx_material new_handle(Material material) {
     return new smx_material_s(std::make_shared<const Material>(std::move(material)));
 }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 

@@ -8,16 +8,15 @@ using namespace smx;
 
 namespace {
 
-Displacement to_cpp(const smx_displacement &x) {
-    return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y};
-}
+Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
 Scene to_cpp(const smx_scene &s) {
     return {s.width, s.height, s.light_phi, to_cpp(s.displacement), static_cast<Masking>(s.masking)};
 }
 
 RenderOptions to_cpp(const smx_render_options &o) {
-    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp, o.seed, static_cast<Lookup>(o.lookup), o.target_error, {}};
+    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp,          o.seed,
+                      static_cast<Lookup>(o.lookup),   o.target_error, {}};
     if (o.progress)
         out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
     return out;
@@ -40,31 +39,30 @@ smx_status render(smx_context context, const void *material, const char *materia
         const RenderReport r = rendered.report;
         *image = new smx_image_s(std::make_shared<Image>(std::move(rendered.image)));
         if (report) {
-            *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp,
-                       r.standard_error};
+            *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds,
+                       r.evaluations,  r.spp,     r.standard_error};
         }
     });
 }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 
 smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                const smx_render_options *options, smx_image *image, smx_render_report *report) {
-    return render(context, material, "material", scene, options, image, report,
-                  [&](Context &c, const Scene &s, const RenderOptions &o) {
-                      return shade_filtered(c, *material->object, s, o);
-                  });
+    return render(
+        context, material, "material", scene, options, image, report,
+        [&](Context &c, const Scene &s, const RenderOptions &o) { return shade_filtered(c, *material->object, s, o); });
 }
 
 smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
                                 const smx_render_options *options, smx_image *image, smx_render_report *report) {
-    return render(context, brdf, "brdf", scene, options, image, report,
-                  [&](Context &c, const Scene &s, const RenderOptions &o) {
-                      const bool sharp = o.sampler == Sampler::Mis;
-                      return integrate_reference(c, *brdf->object, sharp ? brdf->proposal() : std::vector<Lobe>{}, s, o);
-                  });
+    return render(
+        context, brdf, "brdf", scene, options, image, report, [&](Context &c, const Scene &s, const RenderOptions &o) {
+            const bool sharp = o.sampler == Sampler::Mis;
+            return integrate_reference(c, *brdf->object, sharp ? brdf->proposal() : std::vector<Lobe>{}, s, o);
+        });
 }
 
 smx_status smx_render_geometry(smx_context context, const smx_scene *scene, const smx_render_options *options,
@@ -82,8 +80,8 @@ smx_status smx_material_eval(smx_context context, smx_material material, const s
         require_pointer(wi, "wi");
         require_pointer(wo, "wo");
         require_pointer(fcos, "fcos");
-        shade_filtered_pairs(*context->object, *material->object, to_cpp(*displacement),
-                             static_cast<Masking>(masking), count, wi, wo, fcos);
+        shade_filtered_pairs(*context->object, *material->object, to_cpp(*displacement), static_cast<Masking>(masking),
+                             count, wi, wo, fcos);
     });
 }
 }

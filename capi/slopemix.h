@@ -31,11 +31,11 @@
 #include "slopemix_version.h"
 
 #if defined(_WIN32)
-#  define SMX_API __declspec(dllimport)
+#define SMX_API __declspec(dllimport)
 #elif defined(SMX_BUILDING_LIBRARY)
-#  define SMX_API __attribute__((visibility("default")))
+#define SMX_API __attribute__((visibility("default")))
 #else
-#  define SMX_API
+#define SMX_API
 #endif
 
 #ifdef __cplusplus
@@ -46,17 +46,17 @@ extern "C" {
 
 typedef enum smx_status {
     SMX_OK = 0,
-    SMX_INVALID_ARGUMENT = 1,  /* a null pointer, a wrong size field, a value out of its range */
-    SMX_CANNOT_READ = 2,       /* a file is missing or unreadable */
-    SMX_CANNOT_WRITE = 3,      /* an output cannot be made; what was there before is still there */
-    SMX_BAD_FORMAT = 4,        /* a file's content is not what its format demands */
-    SMX_NO_DEVICE = 5,         /* no OpenCL device, or none that matches */
-    SMX_KERNEL_BUILD = 6,      /* the device's compiler refused a kernel; its log is in the message */
-    SMX_DEVICE_ERROR = 7,      /* an OpenCL call failed */
-    SMX_OUT_OF_MEMORY = 8,     /* host or device memory */
-    SMX_NO_SOLUTION = 9,       /* the data have no answer: a table of zeros, a fit that cannot start */
-    SMX_CANCELLED = 10,        /* a progress callback asked to stop */
-    SMX_INTERNAL = 11          /* a fault of the library itself */
+    SMX_INVALID_ARGUMENT = 1, /* a null pointer, a wrong size field, a value out of its range */
+    SMX_CANNOT_READ = 2,      /* a file is missing or unreadable */
+    SMX_CANNOT_WRITE = 3,     /* an output cannot be made; what was there before is still there */
+    SMX_BAD_FORMAT = 4,       /* a file's content is not what its format demands */
+    SMX_NO_DEVICE = 5,        /* no OpenCL device, or none that matches */
+    SMX_KERNEL_BUILD = 6,     /* the device's compiler refused a kernel; its log is in the message */
+    SMX_DEVICE_ERROR = 7,     /* an OpenCL call failed */
+    SMX_OUT_OF_MEMORY = 8,    /* host or device memory */
+    SMX_NO_SOLUTION = 9,      /* the data have no answer: a table of zeros, a fit that cannot start */
+    SMX_CANCELLED = 10,       /* a progress callback asked to stop */
+    SMX_INTERNAL = 11         /* a fault of the library itself */
 } smx_status;
 
 /* Name ("SMX_BAD_FORMAT") and sentence of a status; "unknown status" for a value that is none. Static strings. */
@@ -88,7 +88,8 @@ typedef struct smx_device_info {
     uint64_t global_memory; /* bytes */
     uint32_t vector_width;  /* evaluations per work-item that slopemix uses on it: 1, 4, 8 or 16 */
 } smx_device_info;
-#define SMX_DEVICE_INFO_INIT {sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0}
+#define SMX_DEVICE_INFO_INIT \
+    { sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0 }
 
 /* Number of OpenCL devices over all platforms; 0 is not an error.
  * Statuses: INVALID_ARGUMENT (count is null). */
@@ -105,7 +106,8 @@ typedef struct smx_context_options {
     void *cl_queue;        /*   must then be NULL */
     uint32_t vector_width; /* 0: from the device; else 1, 4, 8 or 16 evaluations per work-item */
 } smx_context_options;
-#define SMX_CONTEXT_OPTIONS_INIT {sizeof(smx_context_options), NULL, NULL, NULL, 0}
+#define SMX_CONTEXT_OPTIONS_INIT \
+    { sizeof(smx_context_options), NULL, NULL, NULL, 0 }
 
 /* A device, its queue and the kernels built for it. Kernels are built on first use and kept.
  * Statuses: INVALID_ARGUMENT, NO_DEVICE, DEVICE_ERROR. */
@@ -127,15 +129,16 @@ typedef struct smx_brdf_s *smx_brdf;
 
 typedef struct smx_brdf_info {
     size_t size;
-    char name[128];           /* file name without its ending, or the built-in's name */
-    char source[512];         /* path, or "builtin:NAME" */
-    char sha256[65];          /* of the table's bytes as stored in a file, in hexadecimal */
+    char name[128];   /* file name without its ending, or the built-in's name */
+    char source[512]; /* path, or "builtin:NAME" */
+    char sha256[65];  /* of the table's bytes as stored in a file, in hexadecimal */
     uint32_t theta_h, theta_d, phi_d;
-    uint64_t cells;           /* theta_h * theta_d * phi_d */
-    uint64_t invalid_cells;   /* with a negative channel */
-    uint64_t filled_cells;    /* of them, those above the horizon: holes in the measurement */
+    uint64_t cells;         /* theta_h * theta_d * phi_d */
+    uint64_t invalid_cells; /* with a negative channel */
+    uint64_t filled_cells;  /* of them, those above the horizon: holes in the measurement */
 } smx_brdf_info;
-#define SMX_BRDF_INFO_INIT {sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0}
+#define SMX_BRDF_INFO_INIT \
+    { sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0 }
 
 /* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
  * sharp white gloss), "builtin:conductor" (one rough metal lobe). Cells with a negative channel are invalid; they are
@@ -174,7 +177,8 @@ typedef struct smx_inversion_options {
     double tolerance;        /* stop when the density changes by less than this (relative L1), > 0 */
     uint32_t max_iterations; /* 1..100000; reaching it is reported, not an error */
 } smx_inversion_options;
-#define SMX_INVERSION_OPTIONS_INIT {sizeof(smx_inversion_options), SMX_MASKING_COINCIDES, 1e-10, 1000}
+#define SMX_INVERSION_OPTIONS_INIT \
+    { sizeof(smx_inversion_options), SMX_MASKING_COINCIDES, 1e-10, 1000 }
 
 /* The radial slope density of a BRDF, by power iteration on its retro-reflection, and one Fresnel curve per channel
  * (Dupuy, Heitz, Iehl, Poulin, Ostromoukhov: "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials
@@ -183,14 +187,15 @@ typedef struct smx_density_s *smx_density;
 
 typedef struct smx_density_info {
     size_t size;
-    uint32_t nodes;        /* of the slope density */
-    uint32_t fresnel_knots;/* theta_d = k pi/180, k = 0..knots-1 */
+    uint32_t nodes;         /* of the slope density */
+    uint32_t fresnel_knots; /* theta_d = k pi/180, k = 0..knots-1 */
     uint32_t iterations;
     int converged;
-    double change;         /* relative L1 change of the last iteration */
-    double alpha;          /* sqrt of the mean squared slope: the one-lobe fit */
+    double change; /* relative L1 change of the last iteration */
+    double alpha;  /* sqrt of the mean squared slope: the one-lobe fit */
 } smx_density_info;
-#define SMX_DENSITY_INFO_INIT {sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0}
+#define SMX_DENSITY_INFO_INIT \
+    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0 }
 
 /* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
 SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
@@ -224,26 +229,28 @@ typedef struct smx_fit_options {
     uint32_t max_iterations; /* of EM, 1..1000000 */
     int refine;              /* nonzero: least-squares refinement of weights and alphas (Ceres) after EM */
 } smx_fit_options;
-#define SMX_FIT_OPTIONS_INIT {sizeof(smx_fit_options), SMX_MODEL_PER_LOBE, 8, 1e-6, 20000, 1}
+#define SMX_FIT_OPTIONS_INIT \
+    { sizeof(smx_fit_options), SMX_MODEL_PER_LOBE, 8, 1e-6, 20000, 1 }
 
 typedef struct smx_fit_report {
     size_t size;
-    uint32_t lobes;               /* in the material */
+    uint32_t lobes; /* in the material */
     uint32_t inversion_iterations;
     uint32_t em_iterations;
     uint32_t refine_iterations;
-    double log_likelihood_em;     /* mean of log p22 of the mixture under the slope density, per unit mass */
-    double log_likelihood;        /* the same after the refinement */
-    double residual_em;           /* Hellinger distance of density and mixture, 0..1 */
-    double residual;              /* the same after the refinement */
-    char refine_message[256];     /* the solver's verdict; "" without refinement */
-    uint32_t curve_iterations;    /* the per-lobe model's refinement in BRDF space: its iterations, */
-    double brdf_residual_start;   /*   relative error in BRDF space before it (root mean square over theta_d), */
-    double brdf_residual;         /*   after it, */
-    char curve_message[256];      /*   and the solver's verdict */
+    double log_likelihood_em;   /* mean of log p22 of the mixture under the slope density, per unit mass */
+    double log_likelihood;      /* the same after the refinement */
+    double residual_em;         /* Hellinger distance of density and mixture, 0..1 */
+    double residual;            /* the same after the refinement */
+    char refine_message[256];   /* the solver's verdict; "" without refinement */
+    uint32_t curve_iterations;  /* the per-lobe model's refinement in BRDF space: its iterations, */
+    double brdf_residual_start; /*   relative error in BRDF space before it (root mean square over theta_d), */
+    double brdf_residual;       /*   after it, */
+    char curve_message[256];    /*   and the solver's verdict */
     double seconds;
 } smx_fit_report;
-#define SMX_FIT_REPORT_INIT {sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, "", 0.0}
+#define SMX_FIT_REPORT_INIT \
+    { sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, "", 0.0 }
 
 /* Zero-mean isotropic Beckmann lobes, in ascending alpha, with their Fresnel curves (smx_model). Immutable. */
 typedef struct smx_material_s *smx_material;
@@ -252,13 +259,14 @@ typedef struct smx_material_info {
     size_t size;
     char name[128];
     char source[512];
-    char sha256[65];     /* of the source table; "" for a material made from arrays */
+    char sha256[65]; /* of the source table; "" for a material made from arrays */
     smx_model model;
     uint32_t lobes;
     uint32_t fresnel_knots;
     uint32_t fresnel_sets; /* of three curves: 1 for the shared model, else one per lobe */
 } smx_material_info;
-#define SMX_MATERIAL_INFO_INIT {sizeof(smx_material_info), "", "", "", SMX_MODEL_SHARED, 0, 0, 0}
+#define SMX_MATERIAL_INFO_INIT \
+    { sizeof(smx_material_info), "", "", "", SMX_MODEL_SHARED, 0, 0, 0 }
 
 /* Fits `lobes` lobes to a slope density: EM in log space, then Ceres; the shared model takes over the density's Fresnel
  * curves, the per-lobe model fits its own to the table and refines alphas and curves together.
@@ -270,13 +278,16 @@ typedef struct smx_material_desc {
     size_t size;
     const char *name;
     smx_model model;
-    const smx_lobe *lobes; /* [lobe_count]; shared: weights are normalised to sum to 1; per-lobe: weights are not read */
-    size_t lobe_count;     /* 1..SMX_MAX_LOBES */
+    const smx_lobe
+        *lobes;        /* [lobe_count]; shared: weights are normalised to sum to 1; per-lobe: weights are not read */
+    size_t lobe_count; /* 1..SMX_MAX_LOBES */
     const double *theta_d; /* [knots] ascending from 0 to pi/2; NULL: equidistant */
     size_t knots;          /* 2..4096 */
-    const double *fresnel; /* [sets][3][knots], values >= 0, linear between the knots; sets: 1, or per-lobe lobe_count */
+    const double
+        *fresnel; /* [sets][3][knots], values >= 0, linear between the knots; sets: 1, or per-lobe lobe_count */
 } smx_material_desc;
-#define SMX_MATERIAL_DESC_INIT {sizeof(smx_material_desc), "material", SMX_MODEL_SHARED, NULL, 0, NULL, 0, NULL}
+#define SMX_MATERIAL_DESC_INIT \
+    { sizeof(smx_material_desc), "material", SMX_MODEL_SHARED, NULL, 0, NULL, 0, NULL }
 
 /* From arrays, which are copied. Statuses: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_create(const smx_material_desc *desc, smx_material *material);
@@ -323,15 +334,16 @@ typedef struct smx_scene {
     smx_displacement displacement;
     smx_masking masking;
 } smx_scene;
-#define SMX_SCENE_INIT {sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED}
+#define SMX_SCENE_INIT \
+    { sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED }
 
 /* Where the reference's facets come from. Where one alpha is 0, every sampler spreads all samples along the other axis;
  * where both are, one sample is exact. */
 typedef enum smx_sampler {
     SMX_SAMPLER_GRID = 0,  /* n x n jittered strata of X's slopes; no estimate of the error */
     SMX_SAMPLER_SOBOL = 1, /* X's slopes from Owen-scrambled Sobol points */
-    SMX_SAMPLER_MIS = 2    /* half of them from X, half from the base material's own mixture about the half vector, joined
-                            * by the balance heuristic: for sharp materials */
+    SMX_SAMPLER_MIS = 2 /* half of them from X, half from the base material's own mixture about the half vector, joined
+                         * by the balance heuristic: for sharp materials */
 } smx_sampler;
 
 typedef struct smx_render_options {
@@ -344,19 +356,21 @@ typedef struct smx_render_options {
     smx_progress_fn progress; /* or NULL */
     void *progress_user;
 } smx_render_options;
-#define SMX_RENDER_OPTIONS_INIT {sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL}
+#define SMX_RENDER_OPTIONS_INIT \
+    { sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL }
 
 typedef struct smx_render_report {
     size_t size;
-    double seconds;         /* the whole call */
-    double kernel_seconds;  /* on the device, from OpenCL's events */
-    double build_seconds;   /* compiling kernels that were not built yet */
-    uint64_t evaluations;   /* of the shading or the integrand: pixels (lit ones in a reference) times samples */
-    uint32_t spp;           /* samples per pixel of a reference; 0 for the others */
-    double standard_error;  /* of a reference, from independent scrambles: root mean square over the image's. Negative
-                             * where there is no estimate: the grid, or a number of samples that 16 does not divide */
+    double seconds;        /* the whole call */
+    double kernel_seconds; /* on the device, from OpenCL's events */
+    double build_seconds;  /* compiling kernels that were not built yet */
+    uint64_t evaluations;  /* of the shading or the integrand: pixels (lit ones in a reference) times samples */
+    uint32_t spp;          /* samples per pixel of a reference; 0 for the others */
+    double standard_error; /* of a reference, from independent scrambles: root mean square over the image's. Negative
+                            * where there is no estimate: the grid, or a number of samples that 16 does not divide */
 } smx_render_report;
-#define SMX_RENDER_REPORT_INIT {sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0}
+#define SMX_RENDER_REPORT_INIT \
+    { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0 }
 
 typedef struct smx_image_s *smx_image;
 
@@ -415,13 +429,14 @@ SMX_API smx_status smx_image_quantile(smx_image image, double q, double *value);
 
 typedef struct smx_comparison {
     size_t size;
-    double relrmse;    /* sqrt(mean (a-b)^2) / sqrt(mean b^2); infinity where b is black and a is not, 0 where both are */
+    double relrmse; /* sqrt(mean (a-b)^2) / sqrt(mean b^2); infinity where b is black and a is not, 0 where both are */
     double rmse;
-    double max_error;  /* largest |a-b| */
-    double bias;       /* mean a / mean b; 1 where both are black, infinity where only b is */
-    uint64_t pixels;   /* compared: those with alpha > 0 in b */
+    double max_error; /* largest |a-b| */
+    double bias;      /* mean a / mean b; 1 where both are black, infinity where only b is */
+    uint64_t pixels;  /* compared: those with alpha > 0 in b */
 } smx_comparison;
-#define SMX_COMPARISON_INIT {sizeof(smx_comparison), 0.0, 0.0, 0.0, 0.0, 0}
+#define SMX_COMPARISON_INIT \
+    { sizeof(smx_comparison), 0.0, 0.0, 0.0, 0.0, 0 }
 
 /* Errors of `image` against `reference` over the pixels with alpha > 0 in the reference and the three channels.
  * Statuses: INVALID_ARGUMENT (also images of different size, or no pixel to compare). */

@@ -1,11 +1,11 @@
-// A picture of the displaced sphere: relief with X's slopes, far larger than the displacement it stands for, so that its
-// shape shows. The radius is 1 + relief(direction), a sum of waves that the host draws; a ray is marched to it.
-// Not a reference: the relief's slopes are X's only in their statistics.
+// A picture of the displaced sphere: relief with X's slopes, far larger than the displacement it stands for, so that
+// its shape shows. The radius is 1 + relief(direction), a sum of waves that the host draws; a ray is marched to it. Not
+// a reference: the relief's slopes are X's only in their statistics.
 
 typedef struct {
-    float kx, ky, kz;       // wave over the unit direction (solid), over theta (kx) or over phi (kx)
+    float kx, ky, kz; // wave over the unit direction (solid), over theta (kx) or over phi (kx)
     float amplitude, phase;
-    int kind;               // 0: solid, 1: along theta, 2: along phi, fading towards the poles
+    int kind; // 0: solid, 1: along theta, 2: along phi, fading towards the poles
 } Wave;
 
 #define MARCH_STEPS 96
@@ -32,10 +32,9 @@ inline float height_above(__constant const Wave *waves, int count, float radius,
 inline float3 surface_normal(__constant const Wave *waves, int count, float radius, float3 p) {
     const float e = 2e-3f; // far below the shortest wave, far above a float's steps
     float3 dx = (float3)(e, 0.0f, 0.0f), dy = (float3)(0.0f, e, 0.0f), dz = (float3)(0.0f, 0.0f, e);
-    return normalize((float3)(
-        height_above(waves, count, radius, p + dx) - height_above(waves, count, radius, p - dx),
-        height_above(waves, count, radius, p + dy) - height_above(waves, count, radius, p - dy),
-        height_above(waves, count, radius, p + dz) - height_above(waves, count, radius, p - dz)));
+    return normalize((float3)(height_above(waves, count, radius, p + dx) - height_above(waves, count, radius, p - dx),
+                              height_above(waves, count, radius, p + dy) - height_above(waves, count, radius, p - dy),
+                              height_above(waves, count, radius, p + dz) - height_above(waves, count, radius, p - dz)));
 }
 
 __kernel void draw_geometry(__global float4 *rgba, int width, int height, int first_row, __constant Wave *waves,
@@ -59,8 +58,10 @@ __kernel void draw_geometry(__global float4 *rgba, int width, int height, int fi
             float inside = hit, outside = hit + step;
             for (int b = 0; b < BISECTIONS; ++b) {
                 float middle = 0.5f * (inside + outside);
-                if (height_above(waves, count, radius, (float3)(x, middle, z)) <= 0.0f) inside = middle;
-                else outside = middle;
+                if (height_above(waves, count, radius, (float3)(x, middle, z)) <= 0.0f)
+                    inside = middle;
+                else
+                    outside = middle;
             }
 
             // Shade as a matte solid under a raking light and a weak one from the viewer.

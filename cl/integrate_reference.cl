@@ -1,14 +1,15 @@
 // The statistical reference: the measured table integrated over the facets of X,
 //   L(wi, wo) = (1 / p_o) integral f(wi_m, wo_m) <wi,wm>+ <wo,wm>+ G2_X D_X(wm) dwm
-// The camera is orthographic and the light directional, so theta_d is one for the image, the table is cut there once, and
-// all pixels share the drawn facets (draw_facets.cl). A work-item owns one pixel and takes W facets at a time.
+// The camera is orthographic and the light directional, so theta_d is one for the image, the table is cut there once,
+// and all pixels share the drawn facets (draw_facets.cl). A work-item owns one pixel and takes W facets at a time.
 //
 // Sums: lanes and batches are added in floats over blocks of at most BLOCK samples, blocks in Neumaier's compensated
 // sum, which is kept between launches. The error stays near BLOCK / 2 float roundings, whatever the sample count.
 //
 // Build parameters
 //   W                lanes per work-item (vec.clh); default 1
-//   TECHNIQUE        0: facets of X alone, 1: facets of X, weighted by the balance heuristic, 2: facets of the base about
+//   TECHNIQUE        0: facets of X alone, 1: facets of X, weighted by the balance heuristic, 2: facets of the base
+//   about
 //                    wh, weighted likewise; default 0
 //   LOOKUP_NEAREST   0: linear, 1: nearest (table_slice.clh); default 0
 //   G2_SEPARABLE     0: height-correlated masking, 1: separable (masking.clh); default 0
@@ -36,8 +37,8 @@ typedef struct {
     float kx, ky, kz; // wh x wi
     float ax, ay, az; // with b: a frame about wh
     float bx, by, bz;
-    float cos_d;      // <wi, wh>
-    int lit;          // on the sphere and not turned away from the light
+    float cos_d; // <wi, wh>
+    int lit;     // on the sphere and not turned away from the light
 } Pixel;
 
 inline float lane_0(realW v) {
@@ -60,7 +61,8 @@ inline Pixel pixel_at(const SphereView *view, int column, int row) {
     p.kx = k.x;
     p.ky = k.y;
     p.kz = k.z;
-    float3 a = normalize(fabs(h.z) < 0.9f ? cross((float3)(0.0f, 0.0f, 1.0f), h) : cross((float3)(1.0f, 0.0f, 0.0f), h));
+    float3 a =
+        normalize(fabs(h.z) < 0.9f ? cross((float3)(0.0f, 0.0f, 1.0f), h) : cross((float3)(1.0f, 0.0f, 0.0f), h));
     float3 b = cross(h, a);
     p.ax = a.x;
     p.ay = a.y;
@@ -120,8 +122,8 @@ inline Facets load_facets(const Pixel *p, const Displacement *x, __global const 
 }
 #endif
 
-// Sum over W facets of f <wi,wm>+ <wo,wm>+ D_X / density. Everything is told by the chord wm - wh, which is short where a
-// sharp table is high and carries no cancellation there: <wi,wm> = cos_d + <wi,chord>, wo = 2 cos_d wh - wi.
+// Sum over W facets of f <wi,wm>+ <wo,wm>+ D_X / density. Everything is told by the chord wm - wh, which is short where
+// a sharp table is high and carries no cancellation there: <wi,wm> = cos_d + <wi,chord>, wo = 2 cos_d wh - wi.
 inline float4 facet_sum(const Pixel *p, const Facets *m, __global const float4 *slice, __constant const float *density,
                         intW valid) {
     realW chord2 = m->cx * m->cx + m->cy * m->cy + m->cz * m->cz;
@@ -191,9 +193,9 @@ __kernel void fold_scramble(__global float4 *sums, __global float4 *rests, __glo
     rests[item] = (float4)(0.0f);
 }
 
-// Writes a band of pixels, mean times G2_X / p_o, and its standard error from `scrambles` independent estimates (0 where
-// there is one). 0 where either direction is not above the surface and its mean plane. Work-item (c, r) takes pixels
-// W c ... W c + W - 1 of row first_row + r.
+// Writes a band of pixels, mean times G2_X / p_o, and its standard error from `scrambles` independent estimates (0
+// where there is one). 0 where either direction is not above the surface and its mean plane. Work-item (c, r) takes
+// pixels W c ... W c + W - 1 of row first_row + r.
 __kernel void finish_reference(__global float4 *rgba, __global float4 *errors, __global const float4 *means,
                                __global const float4 *deviations, SphereView view, int first_row, Displacement x,
                                int scrambles) {
@@ -217,6 +219,7 @@ __kernel void finish_reference(__global float4 *rgba, __global float4 *errors, _
     for (int lane = 0; lane < W && first_column + lane < view.width; ++lane) {
         int at = band_row * view.width + first_column + lane;
         rgba[at] = inside[lane] ? (float4)(means[at].xyz * scales[lane], 1.0f) : (float4)(0.0f);
-        errors[at] = inside[lane] ? (float4)(sqrt(deviations[at].xyz * inv_pairs) * scales[lane], 1.0f) : (float4)(0.0f);
+        errors[at] =
+            inside[lane] ? (float4)(sqrt(deviations[at].xyz * inv_pairs) * scales[lane], 1.0f) : (float4)(0.0f);
     }
 }

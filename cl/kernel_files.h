@@ -13,4 +13,4 @@ struct KernelFile {
 
 std::span<const KernelFile> kernel_files();
 
-}  // namespace smx
+} // namespace smx

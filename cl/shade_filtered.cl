@@ -27,7 +27,8 @@ inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constan
     for (int k = 0; k < count; ++k)
         sum = add_coloured(sum, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z, lobe_fcos(lobes + k, e));
 #else
-    sum = add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_fcos(lobes, count, e));
+    sum =
+        add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_fcos(lobes, count, e));
 #endif
     return sum;
 }
@@ -51,10 +52,10 @@ __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int 
     int first_column = W * (int)get_global_id(0);
     int band_row = (int)get_global_id(1);
     SpherePoint s = sphere_point(&view, first_column + laneW, (intW)(first_row + band_row));
-    Evaluation e = evaluation(&x, SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y),
-                              SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ty, s.by, s.ny,
-                              SPHERE_LOCAL_X(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y),
-                              SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
+    Evaluation e =
+        evaluation(&x, SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y),
+                   SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ty, s.by, s.ny, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
+                   SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
     RgbW fcos = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
     if (anyW(e.visible)) fcos = fcos_at_one_angle(lobes, count, fresnel, &e);
     store_rgba(rgba + band_row * view.width + first_column, fcos, s.inside, view.width - first_column);

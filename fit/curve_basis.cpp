@@ -14,12 +14,12 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr std::array<double, curve_coefficients + 3> knots = {0,  0,  0,  12, 25, 37, 48, 57,
                                                               65, 72, 78, 83, 87, 90, 90, 90};
 
-}  // namespace
+} // namespace
 
 CurveShares curve_shares(double theta_d) {
     const double x = std::clamp(theta_d / degree, 0.0, 90.0);
     const auto above = std::upper_bound(knots.begin() + 3, knots.end() - 3, x);
-    const auto j = static_cast<std::size_t>(above - knots.begin()) - 1;  // knots[j] <= x <= knots[j + 1]
+    const auto j = static_cast<std::size_t>(above - knots.begin()) - 1; // knots[j] <= x <= knots[j + 1]
 
     // Linear splines over the interval, then quadratic ones: Cox-de Boor.
     const double r = (x - knots[j]) / (knots[j + 1] - knots[j]);
@@ -34,7 +34,7 @@ std::vector<double> curve_levels() {
         levels.push_back(knots[j] * degree);
         levels.push_back(std::floor((knots[j] + knots[j + 1]) / 2) * degree);
     }
-    levels.push_back(89 * degree);  // the table's last row
+    levels.push_back(89 * degree); // the table's last row
     return levels;
 }
 
@@ -49,4 +49,4 @@ std::vector<double> curve_values(const std::vector<double> &coefficients, const 
     return values;
 }
 
-}  // namespace smx
+} // namespace smx

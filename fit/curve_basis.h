@@ -1,5 +1,5 @@
-// Fresnel curves as the fit sees them: quadratic B-splines over theta_d with non-negative coefficients, so that a curve is
-// smooth and cannot be negative, and the model stays linear in them (de Boor 1978, "A Practical Guide to Splines").
+// Fresnel curves as the fit sees them: quadratic B-splines over theta_d with non-negative coefficients, so that a curve
+// is smooth and cannot be negative, and the model stays linear in them (de Boor 1978, "A Practical Guide to Splines").
 #pragma once
 
 #include <array>
@@ -28,4 +28,4 @@ std::vector<double> curve_values(const std::vector<double> &coefficients, const 
 // Weight of the curves' roughness, the squared second differences of their coefficients, beside the data.
 constexpr double smoothness = 1e-5;
 
-}  // namespace smx
+} // namespace smx

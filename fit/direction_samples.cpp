@@ -9,10 +9,10 @@ namespace smx {
 namespace {
 
 constexpr std::size_t phi_samples = 6;
-constexpr double min_cosine = 0.02;  // nearer the horizon than a table's cells resolve
+constexpr double min_cosine = 0.02; // nearer the horizon than a table's cells resolve
 
-// A value this many times the median of its row in phi_d, and of the rows beside it, is no reflection but a fault of the
-// measurement: along phi_d measured tables vary by a few, not by tens.
+// A value this many times the median of its row in phi_d, and of the rows beside it, is no reflection but a fault of
+// the measurement: along phi_d measured tables vary by a few, not by tens.
 constexpr double outlier_ratio = 30.0;
 
 // Rows of the table at these angles.
@@ -69,8 +69,8 @@ DirectionSample make_sample(const Brdf &brdf, std::size_t half, std::size_t d, s
     return s;
 }
 
-// How often a level is seen: lights spread over the sphere stand 2 theta_d from the view with density sin(2 theta_d); the
-// constant keeps the light at the camera, a common one.
+// How often a level is seen: lights spread over the sphere stand 2 theta_d from the view with density sin(2 theta_d);
+// the constant keeps the light at the camera, a common one.
 double seen(double theta_d) { return (0.25 + std::sin(2 * theta_d)) / 1.25; }
 
 // Scales the weights so that the level's values have a sum of squares that is its share of what is seen.
@@ -101,7 +101,7 @@ DirectionLevel make_level(const Brdf &brdf, std::size_t d, double width) {
     return level;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector<double> &theta_d) {
     std::vector<DirectionLevel> levels;
@@ -116,4 +116,4 @@ std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector
     return levels;
 }
 
-}  // namespace smx
+} // namespace smx

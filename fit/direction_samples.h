@@ -9,10 +9,10 @@ namespace smx {
 
 // One direction pair, in what an isotropic lobe needs, with the table's value there.
 struct DirectionSample {
-    double tan2, inv_cos4;  // of theta_h
+    double tan2, inv_cos4; // of theta_h
     double ci, co, sin_i, sin_o;
     Rgb f;
-    double weight;  // of the residual model - f
+    double weight; // of the residual model - f
 };
 
 struct DirectionLevel {
@@ -26,8 +26,8 @@ struct DirectionLevel {
 //
 // Weights: a sphere under one light shows one theta_d, and its relative error is the integral of (model - f)^2 ci^2 co
 // over the solid angle of wh, over that of f^2 ci^2 co. The squared weights are that integral's, so that within a level
-// peak and body count in the share in which they are seen; each level is scaled to 1 and then to how often its theta_d is
-// seen under lights from everywhere.
+// peak and body count in the share in which they are seen; each level is scaled to 1 and then to how often its theta_d
+// is seen under lights from everywhere.
 std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector<double> &theta_d);
 
-}  // namespace smx
+} // namespace smx

@@ -85,7 +85,7 @@ std::vector<Lobe> joined(const std::vector<Lobe> &lobes, std::size_t k) {
     return fewer;
 }
 
-}  // namespace
+} // namespace
 
 double log_sum_exp(const std::vector<double> &logs) {
     const double top = *std::max_element(logs.begin(), logs.end());
@@ -132,4 +132,4 @@ EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, u
     return result;
 }
 
-}  // namespace smx
+} // namespace smx

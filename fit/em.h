@@ -1,5 +1,5 @@
-// EM for a mixture of zero-mean isotropic Beckmann lobes on a weighted radial slope density. In s = slope^2 each lobe is
-// an exponential density of mean alpha^2, so both steps are exact (Dempster, Laird, Rubin 1977).
+// EM for a mixture of zero-mean isotropic Beckmann lobes on a weighted radial slope density. In s = slope^2 each lobe
+// is an exponential density of mean alpha^2, so both steps are exact (Dempster, Laird, Rubin 1977).
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace smx {
 
 struct EmResult {
-    std::vector<Lobe> lobes;  // canonical order; fewer than asked for where lobes died
+    std::vector<Lobe> lobes; // canonical order; fewer than asked for where lobes died
     unsigned iterations = 0;
     double log_likelihood = 0.0;
 };
@@ -31,4 +31,4 @@ double log_p22(const std::vector<Lobe> &lobes, double s);
 // Mean of log p22 of the mixture under the density, per unit mass.
 double mean_log_likelihood(const std::vector<Lobe> &lobes, const SlopeDensity &density);
 
-}  // namespace smx
+} // namespace smx

@@ -42,8 +42,10 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
         const RefineResult refined = refine(em.lobes, density);
         m.report.refine_iterations = refined.iterations;
         m.report.refine_message = refined.message;
-        if (mean_log_likelihood(refined.lobes, density) >= em.log_likelihood) m.lobes = refined.lobes;
-        else m.report.refine_message += " (below EM's likelihood: EM's lobes kept)";
+        if (mean_log_likelihood(refined.lobes, density) >= em.log_likelihood)
+            m.lobes = refined.lobes;
+        else
+            m.report.refine_message += " (below EM's likelihood: EM's lobes kept)";
     }
     merge_redundant(m.lobes, density);
     m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
@@ -54,4 +56,4 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
     return m;
 }
 
-}  // namespace smx
+} // namespace smx

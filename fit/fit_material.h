@@ -20,4 +20,4 @@ void validate(const FitOptions &options);
 // Throws NoSolution when the density cannot be fitted.
 Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options);
 
-}  // namespace smx
+} // namespace smx

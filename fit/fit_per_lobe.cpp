@@ -30,7 +30,7 @@ void store(const PerLobeFit &fit, Material &m) {
     canonicalise(m);
 }
 
-}  // namespace
+} // namespace
 
 void fit_per_lobe(const Brdf &brdf, Material &material, bool refine) {
     const std::vector<DirectionLevel> levels = direction_levels(brdf, curve_levels());
@@ -55,4 +55,4 @@ void fit_per_lobe(const Brdf &brdf, Material &material, bool refine) {
     store(fit, material);
 }
 
-}  // namespace smx
+} // namespace smx

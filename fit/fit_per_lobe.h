@@ -9,4 +9,4 @@ namespace smx {
 // Takes the lobes of `material` (a shared fit) as start, and makes it a per-lobe one; fills its report.
 void fit_per_lobe(const Brdf &brdf, Material &material, bool refine);
 
-}  // namespace smx
+} // namespace smx

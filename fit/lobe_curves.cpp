@@ -14,7 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Normal equations of one channel set: the matrix is common, as the weights are; unknown (coefficient j, lobe k) is at j n + k.
+// Normal equations of one channel set: the matrix is common, as the weights are; unknown (coefficient j, lobe k) is at
+// j n + k.
 struct NormalEquations {
     MatrixXd gram;
     std::array<VectorXd, 3> right;
@@ -26,7 +27,8 @@ void add_level(NormalEquations &eq, const DirectionLevel &level, const std::vect
     std::array<VectorXd, 3> right = {VectorXd::Zero(n), VectorXd::Zero(n), VectorXd::Zero(n)};
     VectorXd lobes(n);
     for (const DirectionSample &s : level.samples) {
-        for (Eigen::Index k = 0; k < n; ++k) lobes[k] = s.weight * lobe_value(s, alphas[static_cast<std::size_t>(k)]).value;
+        for (Eigen::Index k = 0; k < n; ++k)
+            lobes[k] = s.weight * lobe_value(s, alphas[static_cast<std::size_t>(k)]).value;
         gram.selfadjointView<Eigen::Lower>().rankUpdate(lobes);
         for (std::size_t c = 0; c < 3; ++c) right[c] += lobes * (s.weight * s.f[c]);
     }
@@ -89,9 +91,10 @@ VectorXd solve_non_negative(const MatrixXd &upper, const VectorXd &y) {
     return x.cwiseMax(0.0);
 }
 
-}  // namespace
+} // namespace
 
-std::vector<CurveCoefficients> fit_curves(const std::vector<DirectionLevel> &levels, const std::vector<double> &alphas) {
+std::vector<CurveCoefficients> fit_curves(const std::vector<DirectionLevel> &levels,
+                                          const std::vector<double> &alphas) {
     const auto n = static_cast<Eigen::Index>(alphas.size()), size = n * static_cast<Eigen::Index>(curve_coefficients);
     NormalEquations eq{MatrixXd::Zero(size, size), {VectorXd::Zero(size), VectorXd::Zero(size), VectorXd::Zero(size)}};
     for (const DirectionLevel &level : levels) add_level(eq, level, alphas);
@@ -111,4 +114,4 @@ std::vector<CurveCoefficients> fit_curves(const std::vector<DirectionLevel> &lev
     return curves;
 }
 
-}  // namespace smx
+} // namespace smx

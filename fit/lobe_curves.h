@@ -15,4 +15,4 @@ using CurveCoefficients = std::array<std::vector<double>, 3>;
 // smoothness of each curve in proportion to its lobe's own weight in the data; solved by Ceres with bounds.
 std::vector<CurveCoefficients> fit_curves(const std::vector<DirectionLevel> &levels, const std::vector<double> &alphas);
 
-}  // namespace smx
+} // namespace smx

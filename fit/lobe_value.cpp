@@ -14,12 +14,12 @@ struct Sigma {
 
 Sigma sigma(double cosine, double s) {
     constexpr double half_inv_sqrt_pi = 0.5 * std::numbers::inv_sqrtpi;
-    if (cosine >= 6.0 * s) return {cosine, 0.0};  // the rest is below a rounding of the cosine: exp(-36) s
+    if (cosine >= 6.0 * s) return {cosine, 0.0}; // the rest is below a rounding of the cosine: exp(-36) s
     const double v = cosine / s, gauss = std::exp(-v * v) * half_inv_sqrt_pi;
     return {cosine * std::erfc(-v) / 2 + s * gauss, gauss};
 }
 
-}  // namespace
+} // namespace
 
 LobeValue lobe_value(const DirectionSample &d, double alpha) {
     const double inv_alpha2 = 1.0 / (alpha * alpha), exponent = d.tan2 * inv_alpha2;
@@ -33,4 +33,4 @@ LobeValue lobe_value(const DirectionSample &d, double alpha) {
     return {value, value * (2 * exponent - 2 - denominator_slope / denominator)};
 }
 
-}  // namespace smx
+} // namespace smx

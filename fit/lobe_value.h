@@ -1,5 +1,5 @@
-// One Beckmann lobe with height-correlated Smith masking, f without its Fresnel factor, and its derivative by log alpha.
-// Host side, in double, for the fits; the device's form is in cl/mixture.clh.
+// One Beckmann lobe with height-correlated Smith masking, f without its Fresnel factor, and its derivative by log
+// alpha. Host side, in double, for the fits; the device's form is in cl/mixture.clh.
 #pragma once
 
 #include "direction_samples.h"
@@ -7,10 +7,10 @@
 namespace smx {
 
 struct LobeValue {
-    double value;       // D G2 / (4 ci co)
-    double derivative;  // by log alpha
+    double value;      // D G2 / (4 ci co)
+    double derivative; // by log alpha
 };
 
 LobeValue lobe_value(const DirectionSample &s, double alpha);
 
-}  // namespace smx
+} // namespace smx

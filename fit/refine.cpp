@@ -32,7 +32,8 @@ Deviance deviance(double mass, double p22, double area, double log_mixture) {
 // Parameters: log alphas, then log weights up to a common constant.
 class DevianceResiduals : public ceres::CostFunction {
   public:
-    DevianceResiduals(const SlopeDensity &density, int lobes) : density_(density), lobes_(static_cast<std::size_t>(lobes)) {
+    DevianceResiduals(const SlopeDensity &density, int lobes)
+        : density_(density), lobes_(static_cast<std::size_t>(lobes)) {
         *mutable_parameter_block_sizes() = {lobes, lobes};
         set_num_residuals(static_cast<int>(density.slope.size()));
     }
@@ -55,8 +56,7 @@ class DevianceResiduals : public ceres::CostFunction {
                 const std::size_t at = j * lobes_ + k;
                 if (jacobians && jacobians[0])
                     jacobians[0][at] = derivative * share * 2 * (s * std::exp(-2 * parameters[0][k]) - 1.0);
-                if (jacobians && jacobians[1])
-                    jacobians[1][at] = derivative * (share - std::exp(log_weight[k]));
+                if (jacobians && jacobians[1]) jacobians[1][at] = derivative * (share - std::exp(log_weight[k]));
             }
         }
         return true;
@@ -99,11 +99,13 @@ void pose(ceres::Problem &problem, Parameters &p, const SlopeDensity &density) {
     }
     // The weights are free up to a common factor, so that of the heaviest lobe is held.
     const auto heaviest = std::max_element(p.log_weight.begin(), p.log_weight.end()) - p.log_weight.begin();
-    if (n == 1) problem.SetParameterBlockConstant(p.log_weight.data());
-    else problem.SetManifold(p.log_weight.data(), new ceres::SubsetManifold(n, {static_cast<int>(heaviest)}));
+    if (n == 1)
+        problem.SetParameterBlockConstant(p.log_weight.data());
+    else
+        problem.SetManifold(p.log_weight.data(), new ceres::SubsetManifold(n, {static_cast<int>(heaviest)}));
 }
 
-}  // namespace
+} // namespace
 
 RefineResult refine(const std::vector<Lobe> &start, const SlopeDensity &density) {
     Parameters parameters(start);
@@ -134,4 +136,4 @@ double hellinger(const std::vector<Lobe> &lobes, const SlopeDensity &density) {
     return std::sqrt(sum / 2);
 }
 
-}  // namespace smx
+} // namespace smx

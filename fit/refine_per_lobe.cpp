@@ -50,7 +50,7 @@ struct Robust {
 
 Robust robust(double r) {
     const double x = r / cauchy_scale, x2 = x * x;
-    if (x2 < 1e-8) return {r, 1.0};  // the quotient below is 0 / 0 at 0, and 1 - 3/4 x2 near it
+    if (x2 < 1e-8) return {r, 1.0}; // the quotient below is 0 / 0 at 0, and 1 - 3/4 x2 near it
     const double root = std::sqrt(std::log1p(x2));
     return {std::copysign(cauchy_scale * root, r), std::abs(x) / (root * (1.0 + x2))};
 }
@@ -58,7 +58,8 @@ Robust robust(double r) {
 // One level and channel. Parameters: log alphas, then the lobes' three coefficients that make the curve at theta_d.
 class LevelResiduals : public ceres::CostFunction {
   public:
-    LevelResiduals(const LobeCache &cache, const DirectionLevel &level, std::size_t index, std::size_t channel, int lobes)
+    LevelResiduals(const LobeCache &cache, const DirectionLevel &level, std::size_t index, std::size_t channel,
+                   int lobes)
         : cache_(cache), level_(level), index_(index), channel_(channel), share_(curve_shares(level.theta_d).weight) {
         *mutable_parameter_block_sizes() = {lobes, lobes, lobes, lobes};
         set_num_residuals(static_cast<int>(level.samples.size()));
@@ -122,7 +123,7 @@ class RoughnessResiduals : public ceres::CostFunction {
 // The unknowns as Ceres holds them: one block of log alphas, and one of the lobes' values per channel and coefficient.
 struct Unknowns {
     std::vector<double> log_alphas;
-    std::array<std::vector<std::vector<double>>, 3> values;  // [channel][coefficient][lobe]
+    std::array<std::vector<std::vector<double>>, 3> values; // [channel][coefficient][lobe]
 
     explicit Unknowns(const PerLobeFit &fit) {
         for (double alpha : fit.alphas) log_alphas.push_back(std::log(alpha));
@@ -180,7 +181,7 @@ void pose(ceres::Problem &problem, Unknowns &u, const LobeCache &cache, const st
     }
 }
 
-}  // namespace
+} // namespace
 
 double brdf_residual(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit) {
     double error2 = 0.0, value2 = 0.0;
@@ -227,4 +228,4 @@ PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, con
     return result;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -11,7 +11,7 @@ namespace smx {
 
 struct PerLobeFit {
     std::vector<double> alphas;
-    std::vector<CurveCoefficients> curves;  // one set per alpha
+    std::vector<CurveCoefficients> curves; // one set per alpha
 };
 
 struct PerLobeRefinement {
@@ -21,11 +21,11 @@ struct PerLobeRefinement {
 };
 
 // Residuals: (model - f) by the samples' weights, under a Cauchy loss per sample, and the second differences of the
-// curves' coefficients. Coefficients are bounded below by 0, alphas to 1e-4..1e4. Where the solver fails, the start comes
-// back.
+// curves' coefficients. Coefficients are bounded below by 0, alphas to 1e-4..1e4. Where the solver fails, the start
+// comes back.
 PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, const PerLobeFit &start);
 
 // Relative error over all samples, by their weights: sqrt(sum (w (model - f))^2 / sum (w f)^2).
 double brdf_residual(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit);
 
-}  // namespace smx
+} // namespace smx

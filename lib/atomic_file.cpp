@@ -31,7 +31,7 @@ struct Removal {
     }
 };
 
-}  // namespace
+} // namespace
 
 void write_atomically(const std::string &path, const std::function<void(const std::string &)> &write) {
     std::error_code status;
@@ -61,4 +61,4 @@ void write_atomically(const std::string &path, std::string_view bytes) {
     });
 }
 
-}  // namespace smx
+} // namespace smx

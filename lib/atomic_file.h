@@ -14,4 +14,4 @@ void write_atomically(const std::string &path, const std::function<void(const st
 // The same for bytes at hand.
 void write_atomically(const std::string &path, std::string_view bytes);
 
-}  // namespace smx
+} // namespace smx

@@ -52,4 +52,4 @@ bool Brdf::above_horizon(std::size_t h, std::size_t d, std::size_t p) const {
     return cos_cos - sin_sin > 0.0 && cos_cos + sin_sin > 0.0;
 }
 
-}  // namespace smx
+} // namespace smx

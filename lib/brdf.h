@@ -38,11 +38,11 @@ class Brdf {
     bool above_horizon(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d) const;
 
     std::size_t invalid_cells() const { return invalid_cells_; }
-    std::size_t filled_cells() const { return filled_cells_; }  // invalid ones above the horizon
+    std::size_t filled_cells() const { return filled_cells_; } // invalid ones above the horizon
 
     const std::vector<double> &values() const { return values_; }
     const std::string &name() const { return name_; }
-    const std::string &source() const { return source_; }  // path, "builtin:NAME" or "memory"
+    const std::string &source() const { return source_; } // path, "builtin:NAME" or "memory"
     const std::string &sha256() const { return sha256_; }
 
   private:
@@ -55,4 +55,4 @@ class Brdf {
     std::size_t invalid_cells_ = 0, filled_cells_ = 0;
 };
 
-}  // namespace smx
+} // namespace smx

@@ -48,7 +48,7 @@ Rgb two_layer(const Angles &a) {
 
 Rgb conductor(const Angles &a) {
     constexpr double alpha = 0.2;
-    constexpr Rgb f0 = {0.95, 0.64, 0.54};  // copper's colour
+    constexpr Rgb f0 = {0.95, 0.64, 0.54}; // copper's colour
     Rgb f{};
     for (std::size_t c = 0; c < 3; ++c) f[c] = fresnel(a.cos_d, f0[c]) * lobe(a, alpha);
     return f;
@@ -75,16 +75,19 @@ std::vector<double> sample(std::size_t phi_d_count, Model model) {
     return values;
 }
 
-}  // namespace
+} // namespace
 
 Brdf make_builtin(const std::string &name) {
     constexpr std::size_t phi_d_count = 180;
     std::vector<double> values;
-    if (name == "two-layer") values = sample(phi_d_count, two_layer);
-    else if (name == "conductor") values = sample(phi_d_count, conductor);
-    else fail(Fault::InvalidArgument, "no built-in material \"", name, "\"; there are two-layer and conductor");
+    if (name == "two-layer")
+        values = sample(phi_d_count, two_layer);
+    else if (name == "conductor")
+        values = sample(phi_d_count, conductor);
+    else
+        fail(Fault::InvalidArgument, "no built-in material \"", name, "\"; there are two-layer and conductor");
     const std::string hash = sha256_hex(merl_bytes(phi_d_count, values));
     return Brdf(name, std::string(builtin_prefix) + name, hash, phi_d_count, std::move(values));
 }
 
-}  // namespace smx
+} // namespace smx

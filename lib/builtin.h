@@ -14,4 +14,4 @@ constexpr std::string_view builtin_prefix = "builtin:";
 // Throws InvalidArgument for another name.
 Brdf make_builtin(const std::string &name);
 
-}  // namespace smx
+} // namespace smx

@@ -14,7 +14,7 @@ std::uint32_t chosen_width(std::uint32_t wanted, std::uint32_t native) {
     return wanted ? wanted : native;
 }
 
-}  // namespace
+} // namespace
 
 Context::Context(const std::string &wanted, std::uint32_t vector_width)
     : device_(choose_device(wanted)),
@@ -32,7 +32,8 @@ Context::Context(const cl::Context &context, const cl::CommandQueue &queue, std:
 
 cl::Program Context::build(const std::string &file, const std::string &options) {
     const std::string source = kernel_source(file);
-    const std::string key = text(options, '\n', info_.platform_version, '\n', info_.name, '\n', info_.driver, '\n', source);
+    const std::string key =
+        text(options, '\n', info_.platform_version, '\n', info_.name, '\n', info_.driver, '\n', source);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
 
     const auto start = std::chrono::steady_clock::now();
@@ -54,4 +55,4 @@ cl::Kernel Context::kernel(const std::string &file, const std::string &name, con
     return cl::Kernel(build(file, build_options(all)), name.c_str());
 }
 
-}  // namespace smx
+} // namespace smx

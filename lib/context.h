@@ -29,7 +29,7 @@ class Context {
     std::uint32_t width() const { return info_.vector_width; }
     const cl::Context &cl() const { return context_; }
     const cl::CommandQueue &queue() const { return queue_; }
-    double build_seconds() const { return build_seconds_; }  // of all builds so far
+    double build_seconds() const { return build_seconds_; } // of all builds so far
 
     // Calls on one context run one after another.
     std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
@@ -53,4 +53,4 @@ std::string kernel_source(const std::string &file);
 // -D options in a fixed order.
 std::string build_options(const Defines &defines);
 
-}  // namespace smx
+} // namespace smx

@@ -36,14 +36,14 @@ std::string list_of(const std::vector<cl::Device> &devices) {
     return list;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<cl::Device> all_devices() {
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error &) {
-        return {};  // the loader's way to say that there is no platform
+        return {}; // the loader's way to say that there is no platform
     }
     std::vector<cl::Device> all;
     for (const cl::Platform &platform : platforms) {
@@ -51,7 +51,7 @@ std::vector<cl::Device> all_devices() {
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
         } catch (const cl::Error &) {
-            continue;  // a platform without a device
+            continue; // a platform without a device
         }
         all.insert(all.end(), devices.begin(), devices.end());
     }
@@ -97,4 +97,4 @@ cl::Device choose_device(const std::string &wanted) {
     fail(Fault::NoDevice, "no device whose name holds \"", wanted, "\"; there are ", list_of(devices));
 }
 
-}  // namespace smx
+} // namespace smx

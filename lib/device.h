@@ -14,7 +14,7 @@ struct DeviceInfo {
     std::string name, vendor, version, driver, platform, platform_version;
     std::uint32_t compute_units = 0;
     std::uint64_t global_memory = 0;
-    std::uint32_t vector_width = 1;  // evaluations per work-item
+    std::uint32_t vector_width = 1; // evaluations per work-item
 };
 
 std::vector<cl::Device> all_devices();
@@ -25,4 +25,4 @@ DeviceInfo device_info(const cl::Device &device);
 // list of those there are.
 cl::Device choose_device(const std::string &wanted);
 
-}  // namespace smx
+} // namespace smx

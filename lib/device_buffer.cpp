@@ -13,4 +13,4 @@ void KernelTime::add(const cl::Event &event) {
     }
 }
 
-}  // namespace smx
+} // namespace smx

@@ -33,4 +33,4 @@ class KernelTime {
     double seconds_ = 0.0;
 };
 
-}  // namespace smx
+} // namespace smx

@@ -21,12 +21,12 @@ struct Wave {
 constexpr std::int32_t solid = 0, along_theta = 1, along_phi = 2;
 
 constexpr int waves_per_kind = 24;
-constexpr double mean_frequency = 16.0;  // radians per unit length: relief some 25 degrees of arc long
+constexpr double mean_frequency = 16.0; // radians per unit length: relief some 25 degrees of arc long
 
 // Slope variance of a sum of waves is sum of (amplitude * frequency)^2 / 2 along the wave; alpha^2 is twice that.
 void add_line_waves(std::vector<Wave> &waves, double alpha, std::int32_t kind, std::mt19937 &random) {
     if (alpha == 0.0) return;
-    std::uniform_int_distribution<int> frequency(8, 24);  // whole, so that phi closes
+    std::uniform_int_distribution<int> frequency(8, 24); // whole, so that phi closes
     std::uniform_real_distribution<double> phase(0.0, 2 * pi);
     for (int j = 0; j < waves_per_kind; ++j) {
         const double k = frequency(random), amplitude = alpha / (k * std::sqrt(double{waves_per_kind}));
@@ -49,8 +49,8 @@ void add_solid_waves(std::vector<Wave> &waves, double alpha, std::mt19937 &rando
     }
 }
 
-// The roughness that both axes share as solid waves, the rest along its own axis. Correlation and mean slope do not show
-// in a relief and are left out.
+// The roughness that both axes share as solid waves, the rest along its own axis. Correlation and mean slope do not
+// show in a relief and are left out.
 std::vector<Wave> relief_waves(const Displacement &x) {
     std::mt19937 random(7);
     const double shared = std::min(x.alpha_x, x.alpha_y);
@@ -68,7 +68,7 @@ double mean_radius(const std::vector<Wave> &waves) {
     return 1.0 / (1.0 + 3.0 * std::sqrt(variance));
 }
 
-}  // namespace
+} // namespace
 
 Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions &options) {
     validate(scene);
@@ -80,8 +80,9 @@ Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions
     std::vector<Wave> waves = relief_waves(scene.displacement);
     const auto count = static_cast<cl_int>(waves.size());
     const auto radius = static_cast<cl_float>(mean_radius(waves));
-    if (waves.empty()) waves.push_back({});  // a buffer cannot be empty
-    const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene)), wave_buffer = buffer_from(context, waves);
+    if (waves.empty()) waves.push_back({}); // a buffer cannot be empty
+    const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene)),
+                     wave_buffer = buffer_from(context, waves);
     cl::Kernel kernel = context.kernel("draw_geometry.cl", "draw_geometry");
     kernel.setArg(0, rgba);
     kernel.setArg(1, static_cast<cl_int>(scene.width));
@@ -105,4 +106,4 @@ Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions
     return result;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -7,4 +7,4 @@ namespace smx {
 
 Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions &options);
 
-}  // namespace smx
+} // namespace smx

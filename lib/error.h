@@ -51,4 +51,4 @@ void require(bool holds, const Parts &...parts) {
     if (!holds) fail(Fault::InvalidArgument, parts...);
 }
 
-}  // namespace smx
+} // namespace smx

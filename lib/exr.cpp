@@ -27,8 +27,8 @@ constexpr const char *channels[] = {"R", "G", "B", "A"};
 // The image's rows as OpenEXR sees them; (x, y) is the data window's first pixel.
 Imf::FrameBuffer frame_buffer(float *rgba, std::size_t width, std::ptrdiff_t x, std::ptrdiff_t y) {
     const std::size_t pixel = 4 * sizeof(float), row = width * pixel;
-    char *origin = reinterpret_cast<char *>(rgba) - x * static_cast<std::ptrdiff_t>(pixel) -
-                   y * static_cast<std::ptrdiff_t>(row);
+    char *origin =
+        reinterpret_cast<char *>(rgba) - x * static_cast<std::ptrdiff_t>(pixel) - y * static_cast<std::ptrdiff_t>(row);
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < 4; ++c)
         buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, origin + c * sizeof(float), pixel, row, 1, 1, c == 3));
@@ -59,7 +59,7 @@ Image read_pixels(const std::string &path) {
     return image;
 }
 
-}  // namespace
+} // namespace
 
 void validate_attribute_key(const std::string &key) {
     require(!key.empty() && key.size() <= 255, "an attribute's key has 1..255 characters, not ", key.size());
@@ -72,7 +72,8 @@ Image read_exr(const std::string &path) {
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) fail(Fault::CannotRead, "cannot read ", path, ": it is a folder");
     errno = 0;
-    if (!std::ifstream(path)) fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
+    if (!std::ifstream(path))
+        fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
     try {
         return read_pixels(path);
     } catch (const Error &) {
@@ -96,4 +97,4 @@ void write_exr(const Image &image, const std::string &path) {
     });
 }
 
-}  // namespace smx
+} // namespace smx

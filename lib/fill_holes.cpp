@@ -33,8 +33,10 @@ std::vector<std::optional<std::size_t>> nearest_filled(const std::vector<bool> &
     std::vector<std::optional<std::size_t>> nearest(filled.size());
     for (std::size_t k = 0; k < filled.size(); ++k)
         for (std::size_t far = 0; far < filled.size() && !nearest[k]; ++far) {
-            if (k >= far && filled[k - far]) nearest[k] = k - far;
-            else if (k + far < filled.size() && filled[k + far]) nearest[k] = k + far;
+            if (k >= far && filled[k - far])
+                nearest[k] = k - far;
+            else if (k + far < filled.size() && filled[k + far])
+                nearest[k] = k + far;
         }
     return nearest;
 }
@@ -48,7 +50,7 @@ bool fill_blocks(const std::vector<bool> &filled, std::size_t size, double *firs
     return true;
 }
 
-}  // namespace
+} // namespace
 
 void fill_holes(const Brdf &grid, const std::vector<bool> &valid, std::vector<double> &values) {
     const std::size_t n = grid.phi_d_count(), slab = Brdf::theta_d_count * n;
@@ -68,4 +70,4 @@ void fill_holes(const Brdf &grid, const std::vector<bool> &valid, std::vector<do
     }
 }
 
-}  // namespace smx
+} // namespace smx

@@ -12,4 +12,4 @@ namespace smx {
 // `valid` is by cell; values is [3][cells]. At least one cell must be valid.
 void fill_holes(const Brdf &grid, const std::vector<bool> &valid, std::vector<double> &values);
 
-}  // namespace smx
+} // namespace smx

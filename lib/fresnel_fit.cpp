@@ -10,7 +10,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr std::size_t sigma_samples = 512;  // over the cosine; linear between them
+constexpr std::size_t sigma_samples = 512; // over the cosine; linear between them
 
 // sigma(theta) = integral of <k,h>+ D(h) dh on a grid of cosines, by the trapezoid rule in u (theta = u^2 pi/2).
 std::vector<double> projected_areas(const std::vector<double> &ndf) {
@@ -26,7 +26,7 @@ std::vector<double> projected_areas(const std::vector<double> &ndf) {
             sigma[s] += 2 * (edge * cos_cos + sin_sin * std::sin(edge)) * weight;
             norm += 2 * pi * std::cos(theta) * weight;
         }
-        sigma[s] = norm > 0.0 ? sigma[s] / norm : cos_k;  // a mirror's distribution has its mass at the pole alone
+        sigma[s] = norm > 0.0 ? sigma[s] / norm : cos_k; // a mirror's distribution has its mass at the pole alone
     }
     return sigma;
 }
@@ -63,7 +63,7 @@ Rgb energy_ratio(const Brdf &brdf, const std::vector<double> &ndf, const std::ve
     return ratio;
 }
 
-}  // namespace
+} // namespace
 
 FresnelCurves fit_fresnel(const Brdf &brdf, const std::vector<double> &ndf) {
     const std::vector<double> sigma = projected_areas(ndf);
@@ -74,8 +74,8 @@ FresnelCurves fit_fresnel(const Brdf &brdf, const std::vector<double> &ndf) {
         if (ratio[0] >= 0.0) last = ratio;
         for (std::size_t c = 0; c < 3; ++c) curves[c].push_back(last[c]);
     }
-    for (std::vector<double> &curve : curves) curve.push_back(curve.back());  // theta_d = pi/2 has no cell
+    for (std::vector<double> &curve : curves) curve.push_back(curve.back()); // theta_d = pi/2 has no cell
     return curves;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -13,4 +13,4 @@ namespace smx {
 // Smith of `ndf`. Knots at theta_d = k pi/180, k = 0..90; where nothing was measured the curve goes on level.
 FresnelCurves fit_fresnel(const Brdf &brdf, const std::vector<double> &ndf);
 
-}  // namespace smx
+} // namespace smx

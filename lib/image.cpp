@@ -19,8 +19,7 @@ double quantile(const Image &image, double q) {
     require(q >= 0.0 && q <= 1.0, "q is ", q, "; it must be 0..1");
     std::vector<float> values;
     for (std::size_t at = 0; at < image.pixels(); ++at)
-        if (image.rgba[4 * at + 3] > 0.0f)
-            values.insert(values.end(), &image.rgba[4 * at], &image.rgba[4 * at] + 3);
+        if (image.rgba[4 * at + 3] > 0.0f) values.insert(values.end(), &image.rgba[4 * at], &image.rgba[4 * at] + 3);
     if (values.empty()) return 0.0;
     const auto rank = static_cast<std::ptrdiff_t>(std::llround(q * static_cast<double>(values.size() - 1)));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
@@ -39,8 +38,9 @@ struct Sums {
         b += reference;
         b2 += reference * reference;
         difference2 += difference * difference;
-        // Written so that a NaN is kept.
-        if (!(std::abs(difference) <= max_difference)) max_difference = std::abs(difference);
+        // Written so that a NaN enters, and stays.
+        if (!std::isnan(max_difference) && !(std::abs(difference) <= max_difference))
+            max_difference = std::abs(difference);
     }
 };
 
@@ -50,7 +50,7 @@ double ratio(double a, double b, double both_zero) {
     return a == 0.0 ? both_zero : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
+} // namespace
 
 Comparison compare(const Image &image, const Image &reference) {
     require(image.width == reference.width && image.height == reference.height, "cannot compare ", image.width, " x ",
@@ -67,4 +67,4 @@ Comparison compare(const Image &image, const Image &reference) {
             sums.max_difference, ratio(sums.a, sums.b, 1.0), sums.pixels};
 }
 
-}  // namespace smx
+} // namespace smx

@@ -10,7 +10,7 @@ namespace smx {
 
 struct Image {
     std::uint32_t width = 0, height = 0;
-    std::vector<float> rgba;  // [height][width][4]; alpha 1 on the surface, 0 off it
+    std::vector<float> rgba; // [height][width][4]; alpha 1 on the surface, 0 off it
     std::map<std::string, std::string> attributes;
 
     Image(std::uint32_t width, std::uint32_t height);
@@ -40,4 +40,4 @@ struct Comparison {
 // no such pixel.
 Comparison compare(const Image &image, const Image &reference);
 
-}  // namespace smx
+} // namespace smx

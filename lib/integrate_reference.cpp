@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char *kernel_file = "integrate_reference.cl", *drawing_file = "draw_facets.cl";
 
-// Facets drawn and integrated per launch: a whole number of the kernel's summation blocks, so that the sums do not depend
-// on it, and few enough that progress is told and a cancel heard several times a second.
+// Facets drawn and integrated per launch: a whole number of the kernel's summation blocks, so that the sums do not
+// depend on it, and few enough that progress is told and a cancel heard several times a second.
 constexpr std::uint32_t summation_block = 256;
 constexpr std::uint64_t launch_evaluations = 1u << 26;
-constexpr std::size_t facet_planes = 5;  // the most that draw_facets.cl writes
+constexpr std::size_t facet_planes = 5; // the most that draw_facets.cl writes
 
 std::uint32_t facets_per_launch(const Scene &scene, const SamplingPlan &plan) {
     const std::uint64_t wanted = launch_evaluations / band_pixels(scene) / summation_block * summation_block;
@@ -32,7 +32,7 @@ std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
     double sum = 0.0;
     for (const auto &[weight, alpha] : lobes)
         out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
-    if (out.empty()) out.push_back({{1.0f, 1.0f}});  // a buffer cannot be empty
+    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // a buffer cannot be empty
     return out;
 }
 
@@ -150,7 +150,7 @@ Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines 
 
 void Integration::make_closing_kernels(const Defines &defines, const DeviceDisplacement &x) {
     Defines with_technique = defines;
-    with_technique["TECHNIQUE"] = static_cast<int>(plan_.passes[0].technique);  // any that is built already
+    with_technique["TECHNIQUE"] = static_cast<int>(plan_.passes[0].technique); // any that is built already
     fold_ = context_.kernel(kernel_file, "fold_scramble", with_technique);
     fold_.setArg(0, sums_);
     fold_.setArg(1, rests_);
@@ -251,7 +251,7 @@ void describe_reference(Image &image, const Brdf &brdf, const Scene &scene, cons
     if (report.standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(report.standard_error);
 }
 
-}  // namespace
+} // namespace
 
 Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vector<Lobe> &proposal, const Scene &scene,
                              const RenderOptions &options) {
@@ -282,4 +282,4 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vect
     return result;
 }
 
-}  // namespace smx
+} // namespace smx

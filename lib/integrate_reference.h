@@ -7,10 +7,10 @@
 
 namespace smx {
 
-// options.spp samples per pixel, or as many as options.target_error needs. Where X has roughness along one axis only, all
-// samples go along it; where it has none, one is exact. `proposal` is the mixture that Sampler::Mis draws from about the
-// half vector; the others do without.
+// options.spp samples per pixel, or as many as options.target_error needs. Where X has roughness along one axis only,
+// all samples go along it; where it has none, one is exact. `proposal` is the mixture that Sampler::Mis draws from
+// about the half vector; the others do without.
 Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vector<Lobe> &proposal, const Scene &scene,
                              const RenderOptions &options);
 
-}  // namespace smx
+} // namespace smx

@@ -53,4 +53,4 @@ std::string JsonReader::string() const {
     return value_.get<std::string>();
 }
 
-}  // namespace smx
+} // namespace smx

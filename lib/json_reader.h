@@ -12,10 +12,10 @@ class JsonReader {
   public:
     JsonReader(const nlohmann::json &value, std::string path) : value_(value), path_(std::move(path)) {}
 
-    JsonReader member(const std::string &key);        // of an object
-    JsonReader element(std::size_t index) const;      // of an array
+    JsonReader member(const std::string &key);   // of an object
+    JsonReader element(std::size_t index) const; // of an array
     std::size_t array_size() const;
-    void finish() const;                              // no member of this object was left unread
+    void finish() const; // no member of this object was left unread
 
     double number() const;
     unsigned count() const;
@@ -30,4 +30,4 @@ class JsonReader {
     std::set<std::string> read_;
 };
 
-}  // namespace smx
+} // namespace smx

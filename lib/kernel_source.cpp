@@ -35,7 +35,7 @@ void append(std::string_view name, std::set<std::string_view> &seen, std::string
     }
 }
 
-}  // namespace
+} // namespace
 
 std::string kernel_source(const std::string &file) {
     std::string source;
@@ -50,4 +50,4 @@ std::string build_options(const Defines &defines) {
     return options;
 }
 
-}  // namespace smx
+} // namespace smx

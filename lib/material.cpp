@@ -17,32 +17,34 @@ void validate_knots(const std::vector<double> &theta_d) {
     require(theta_d.front() == 0.0, "theta_d[0] is ", theta_d.front(), "; it must be 0");
     require(std::abs(theta_d.back() - end) <= rounding, "the last theta_d is ", theta_d.back(), "; it must be pi/2");
     for (std::size_t k = 1; k < theta_d.size(); ++k)
-        require(theta_d[k] > theta_d[k - 1], "theta_d[", k, "] is ", theta_d[k], "; it must be above the one before it, ",
-                theta_d[k - 1]);
+        require(theta_d[k] > theta_d[k - 1], "theta_d[", k, "] is ", theta_d[k],
+                "; it must be above the one before it, ", theta_d[k - 1]);
 }
 
 void validate_curve(const std::vector<double> &curve, std::size_t set, std::size_t channel, std::size_t knots) {
-    require(curve.size() == knots, "fresnel[", set, "][", channel, "] has ", curve.size(), " knots, theta_d has ", knots);
+    require(curve.size() == knots, "fresnel[", set, "][", channel, "] has ", curve.size(), " knots, theta_d has ",
+            knots);
     for (std::size_t k = 0; k < knots; ++k)
         require(curve[k] >= 0.0 && std::isfinite(curve[k]), "fresnel[", set, "][", channel, "][", k, "] is ", curve[k],
                 "; it must be finite and not negative");
 }
 
-}  // namespace
+} // namespace
 
 void validate(const Material &m) {
     require(!m.lobes.empty() && m.lobes.size() <= max_lobes, "a material has 1..", max_lobes, " lobes, not ",
             m.lobes.size());
     for (std::size_t k = 0; k < m.lobes.size(); ++k) {
         const auto [weight, alpha] = m.lobes[k];
-        require(weight >= 0.0 && std::isfinite(weight) && (weight > 0.0 || m.model == Model::PerLobe), "lobes[", k, "].weight is ", weight, "; it must be above 0");
+        require(weight >= 0.0 && std::isfinite(weight) && (weight > 0.0 || m.model == Model::PerLobe), "lobes[", k,
+                "].weight is ", weight, "; it must be above 0");
         require(alpha >= min_alpha && alpha <= max_alpha, "lobes[", k, "].alpha is ", alpha, "; it must be ", min_alpha,
                 "..", max_alpha);
     }
     validate_knots(m.theta_d);
     const std::size_t sets = m.model == Model::Shared ? 1 : m.lobes.size();
-    require(m.fresnel.size() == sets, "the ", model_name(m.model), " model needs ", sets, " sets of Fresnel curves, not ",
-            m.fresnel.size());
+    require(m.fresnel.size() == sets, "the ", model_name(m.model), " model needs ", sets,
+            " sets of Fresnel curves, not ", m.fresnel.size());
     for (std::size_t set = 0; set < sets; ++set)
         for (std::size_t c = 0; c < 3; ++c) validate_curve(m.fresnel[set][c], set, c, m.theta_d.size());
 }
@@ -102,4 +104,4 @@ Rgb fresnel_at(const std::vector<double> &knots, const FresnelCurves &curves, do
     return f;
 }
 
-}  // namespace smx
+} // namespace smx

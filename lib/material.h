@@ -15,10 +15,10 @@ constexpr double min_alpha = 1e-4, max_alpha = 1e4;
 
 enum class Model { Shared = 0, PerLobe = 1 };
 
-std::string model_name(Model model);  // "shared", "per-lobe"
+std::string model_name(Model model); // "shared", "per-lobe"
 
 struct Lobe {
-    double weight;  // share of the mixture; in the per-lobe model, of the energy (energy_shares)
+    double weight; // share of the mixture; in the per-lobe model, of the energy (energy_shares)
     double alpha;
 };
 
@@ -37,9 +37,9 @@ struct FitReport {
 struct Material {
     std::string name, source, sha256;
     Model model = Model::Shared;
-    std::vector<Lobe> lobes;             // in ascending alpha, weights summing to 1
-    std::vector<double> theta_d;         // knots of the curves, ascending from 0 to pi/2
-    std::vector<FresnelCurves> fresnel;  // one set, or one per lobe
+    std::vector<Lobe> lobes;            // in ascending alpha, weights summing to 1
+    std::vector<double> theta_d;        // knots of the curves, ascending from 0 to pi/2
+    std::vector<FresnelCurves> fresnel; // one set, or one per lobe
     FitReport report;
 };
 
@@ -59,4 +59,4 @@ void canonicalise(Material &material);
 // F of one set of curves at an angle in 0..pi/2, linear between the knots.
 Rgb fresnel_at(const std::vector<double> &knots, const FresnelCurves &curves, double theta_d);
 
-}  // namespace smx
+} // namespace smx

@@ -149,7 +149,7 @@ void check_values(const Material &m) {
     }
 }
 
-}  // namespace
+} // namespace
 
 Material load_material(const std::string &path) {
     std::error_code status;
@@ -172,4 +172,4 @@ void save_material(const Material &material, const std::string &path) {
     write_atomically(path, to_json(material).dump(2) + "\n");
 }
 
-}  // namespace smx
+} // namespace smx

@@ -13,4 +13,4 @@ Material load_material(const std::string &path);
 // Writes the file, whole or not at all. Throws CannotWrite.
 void save_material(const Material &material, const std::string &path);
 
-}  // namespace smx
+} // namespace smx

@@ -64,7 +64,7 @@ std::size_t phi_d_of(const std::string &bytes) {
     return static_cast<std::size_t>(count);
 }
 
-}  // namespace
+} // namespace
 
 Brdf read_merl(const std::string &path) {
     const std::string bytes = read_checked(path);
@@ -94,4 +94,4 @@ std::string merl_bytes(const Brdf &brdf) {
 
 void write_merl(const Brdf &brdf, const std::string &path) { write_atomically(path, merl_bytes(brdf)); }
 
-}  // namespace smx
+} // namespace smx

@@ -1,5 +1,5 @@
-// MERL `.binary` files: three little-endian int32 (theta_h 90, theta_d 90, phi_d 180 or 360), then the R, G and B planes
-// as float64 in the grid's order, scaled per channel; a negative value marks an invalid cell.
+// MERL `.binary` files: three little-endian int32 (theta_h 90, theta_d 90, phi_d 180 or 360), then the R, G and B
+// planes as float64 in the grid's order, scaled per channel; a negative value marks an invalid cell.
 #pragma once
 
 #include <string>
@@ -20,4 +20,4 @@ std::string merl_bytes(std::size_t phi_d_count, const std::vector<double> &value
 // Writes the file, whole or not at all. Throws CannotWrite.
 void write_merl(const Brdf &brdf, const std::string &path);
 
-}  // namespace smx
+} // namespace smx

@@ -31,9 +31,9 @@ std::string opencl_error_name(cl_int code) {
 
 void fail_opencl(const cl::Error &error) {
     const cl_int code = error.err();
-    const bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY ||
-                        code == CL_INVALID_BUFFER_SIZE;
+    const bool memory =
+        code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
     fail(memory ? Fault::OutOfMemory : Fault::DeviceError, error.what(), ": ", opencl_error_name(code));
 }
 
-}  // namespace smx
+} // namespace smx

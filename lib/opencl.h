@@ -19,4 +19,4 @@ std::string opencl_error_name(cl_int code);
 // Turns an exception of the wrapper into ours: OutOfMemory for the codes that mean it, else DeviceError.
 [[noreturn]] void fail_opencl(const cl::Error &error);
 
-}  // namespace smx
+} // namespace smx

@@ -1,8 +1,8 @@
 // 8-bit display pixels, and PNG files by libpng's simplified interface.
 #include <png.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "atomic_file.h"
@@ -20,7 +20,7 @@ double srgb_transfer(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<std::uint8_t> display_pixels(const Image &image, double exposure) {
     require(exposure > 0.0 && std::isfinite(exposure), "exposure is ", exposure, "; it must be above 0");
@@ -49,4 +49,4 @@ void write_png(const Image &image, const std::string &path, double exposure) {
     });
 }
 
-}  // namespace smx
+} // namespace smx

@@ -16,11 +16,9 @@ constexpr std::uint32_t target_band_pixels = 1u << 18;
 
 std::uint32_t band_rows(const Scene &s) { return std::clamp(target_band_pixels / s.width, 1u, s.height); }
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-}  // namespace
+} // namespace
 
 std::vector<Band> bands(const Scene &s) {
     std::vector<Band> all;
@@ -71,4 +69,4 @@ void describe(Image &image, const std::string &integrator, const Scene &s) {
     a["slopemix.g"] = s.masking == Masking::Separable ? "separable" : "correlated";
 }
 
-}  // namespace smx
+} // namespace smx

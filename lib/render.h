@@ -18,15 +18,15 @@ struct RenderOptions {
     std::uint32_t spp = 65536;
     std::uint64_t seed = 0;
     Lookup lookup = Lookup::Linear;
-    double target_error = 0.0;  // 0: spp samples; else as many as bring the standard error of the image below it
-    std::function<bool(double share)> progress;  // returns true to stop
+    double target_error = 0.0; // 0: spp samples; else as many as bring the standard error of the image below it
+    std::function<bool(double share)> progress; // returns true to stop
 };
 
 struct RenderReport {
     double seconds = 0.0, kernel_seconds = 0.0, build_seconds = 0.0;
     std::uint64_t evaluations = 0;
-    std::uint32_t spp = 0;          // drawn per pixel
-    double standard_error = -1.0;   // of the image, relative to its root mean square; negative: no estimate
+    std::uint32_t spp = 0;        // drawn per pixel
+    double standard_error = -1.0; // of the image, relative to its root mean square; negative: no estimate
 };
 
 struct Rendered {
@@ -63,4 +63,4 @@ class CallTimer {
 void describe(Image &image, const std::string &integrator, const Scene &scene);
 std::string number_text(double value);
 
-}  // namespace smx
+} // namespace smx

@@ -21,7 +21,7 @@ Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
     return {Technique::FromX, Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
 }
 
-}  // namespace
+} // namespace
 
 std::uint32_t SamplingPlan::samples_per_scramble() const {
     std::uint32_t sum = 0;
@@ -53,12 +53,14 @@ SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, st
     if (x.var_2 == 0.0) return {scrambles, {grid(samples, 1)}};
     if (x.var_1 == 0.0) return {scrambles, {grid(1, samples)}};
     switch (sampler) {
-        case Sampler::Sobol: return {scrambles, {{Technique::FromX, Drawing::Sobol, samples}}};
+        case Sampler::Sobol:
+            return {scrambles, {{Technique::FromX, Drawing::Sobol, samples}}};
         case Sampler::Mis:
             return {scrambles,
                     {{Technique::FromXBalanced, Drawing::Sobol, samples / 2},
                      {Technique::AboutWhBalanced, Drawing::AboutZ, samples / 2}}};
-        case Sampler::Grid: break;
+        case Sampler::Grid:
+            break;
     }
     return {1, {grid(square_side(spp), square_side(spp))}};
 }
@@ -80,8 +82,8 @@ std::vector<float> proposal_table(const std::vector<Lobe> &lobes) {
             density += weight / (std::numbers::pi * alpha * alpha) * std::exp(-tangent * tangent / (alpha * alpha));
         table.push_back(static_cast<float>(density / (cosine * cosine * cosine)));
     }
-    table.push_back(0.0f);  // at the horizon
+    table.push_back(0.0f); // at the horizon
     return table;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -20,12 +20,12 @@ struct Pass {
     Technique technique;
     Drawing drawing;
     std::uint32_t samples;
-    std::uint32_t strata_1 = 1, strata_2 = 1;  // of a grid
+    std::uint32_t strata_1 = 1, strata_2 = 1; // of a grid
 };
 
 struct SamplingPlan {
-    std::uint32_t scrambles;    // 1: no estimate of the error
-    std::vector<Pass> passes;   // of every scramble
+    std::uint32_t scrambles;  // 1: no estimate of the error
+    std::vector<Pass> passes; // of every scramble
     std::uint32_t samples_per_scramble() const;
     std::uint32_t samples() const { return scrambles * samples_per_scramble(); }
 };
@@ -41,4 +41,4 @@ std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t 
 // The proposal's density over solid angle at the table's rows theta_h = (k/90)^2 pi/2, k = 0..90.
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes);
 
-}  // namespace smx
+} // namespace smx

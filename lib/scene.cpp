@@ -21,7 +21,7 @@ void validate_mean(const char *name, double slope) {
             max_displacement);
 }
 
-}  // namespace
+} // namespace
 
 void validate(const Displacement &x) {
     validate_alpha("alpha_x", x.alpha_x);
@@ -67,23 +67,29 @@ DeviceDisplacement to_device(const Displacement &x) {
 namespace {
 
 // Angle from the view direction (phi = pi/2) to the light, -pi..pi.
-double view_to_light(const Scene &s) { return std::remainder(s.light_phi - std::numbers::pi / 2, 2 * std::numbers::pi); }
+double view_to_light(const Scene &s) {
+    return std::remainder(s.light_phi - std::numbers::pi / 2, 2 * std::numbers::pi);
+}
 
-}  // namespace
+} // namespace
 
 double theta_d(const Scene &s) { return std::abs(view_to_light(s)) / 2; }
 
 DeviceView to_device(const Scene &s) {
     const double turn = view_to_light(s);
     const auto f = [](double v) { return static_cast<float>(v); };
-    return {static_cast<std::int32_t>(s.width), static_cast<std::int32_t>(s.height),
-            f(-std::sin(turn)), f(std::cos(turn)), f(-std::sin(turn / 2)), f(std::cos(turn / 2))};
+    return {static_cast<std::int32_t>(s.width),
+            static_cast<std::int32_t>(s.height),
+            f(-std::sin(turn)),
+            f(std::cos(turn)),
+            f(-std::sin(turn / 2)),
+            f(std::cos(turn / 2))};
 }
 
 namespace {
 
-// Calls visit(right, depth2) for the centre of every pixel on the sphere: its offset and the square of its depth towards
-// the viewer, in half pixels.
+// Calls visit(right, depth2) for the centre of every pixel on the sphere: its offset and the square of its depth
+// towards the viewer, in half pixels.
 template <typename Visit>
 void visit_sphere(const Scene &s, Visit visit) {
     const std::int64_t side = std::min(s.width, s.height), width = s.width, height = s.height;
@@ -96,7 +102,7 @@ void visit_sphere(const Scene &s, Visit visit) {
     }
 }
 
-}  // namespace
+} // namespace
 
 std::uint64_t sphere_pixels(const Scene &s) {
     std::uint64_t count = 0;
@@ -108,10 +114,11 @@ std::uint64_t lit_pixels(const Scene &s) {
     const DeviceView view = to_device(s);
     std::uint64_t count = 0;
     visit_sphere(s, [&](std::int64_t right, std::int64_t depth2) {
-        const double cos_i = view.wi_x * static_cast<double>(right) + view.wi_y * std::sqrt(static_cast<double>(depth2));
+        const double cos_i =
+            view.wi_x * static_cast<double>(right) + view.wi_y * std::sqrt(static_cast<double>(depth2));
         count += cos_i > 0.0;
     });
     return count;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -44,8 +44,8 @@ struct DeviceView {
 
 // Covariance and principal axes, in double before they are rounded.
 struct PrincipalAxes {
-    double axis_x, axis_y;  // unit vector along the first
-    double var_1, var_2;    // twice the variances: alphas squared
+    double axis_x, axis_y; // unit vector along the first
+    double var_1, var_2;   // twice the variances: alphas squared
 };
 PrincipalAxes principal_axes(const Displacement &displacement);
 
@@ -59,4 +59,4 @@ double theta_d(const Scene &scene);
 std::uint64_t sphere_pixels(const Scene &scene);
 std::uint64_t lit_pixels(const Scene &scene);
 
-}  // namespace smx
+} // namespace smx

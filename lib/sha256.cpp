@@ -21,4 +21,4 @@ std::string sha256_hex(std::string_view bytes) {
     return hex;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -8,4 +8,4 @@ namespace smx {
 
 std::string sha256_hex(std::string_view bytes);
 
-}  // namespace smx
+} // namespace smx

@@ -70,7 +70,7 @@ std::vector<float> to_planes(const float *packed, std::size_t count, std::size_t
     return planes;
 }
 
-}  // namespace
+} // namespace
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
@@ -110,8 +110,8 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     return result;
 }
 
-void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement,
-                          Masking masking, std::size_t count, const float *wi, const float *wo, float *fcos) {
+void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement, Masking masking,
+                          std::size_t count, const float *wi, const float *wo, float *fcos) {
     validate(displacement);
     require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
             "; it must be 0 or 1");
@@ -147,4 +147,4 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
         for (std::size_t channel = 0; channel < 3; ++channel) fcos[3 * k + channel] = planes[channel * stride + k];
 }
 
-}  // namespace smx
+} // namespace smx

@@ -21,10 +21,10 @@ struct Nodes {
     std::array<double, nodes> cos{}, sin{}, weight{}, slope{};
 };
 
-// theta = u^2 pi/2 on equidistant u. The densities vanish smoothly at both ends in u, where the trapezoid rule converges
-// fastest (alpha 1e-3 is recovered to 1e-3). Its weight at node 0 is zero; node 0 gets that of a linear interpolant's
-// first half cell, integral of (1 - u/h) theta dtheta, with the root mean square slope there, so that a mirror, whose
-// mass is all in node 0, has mass.
+// theta = u^2 pi/2 on equidistant u. The densities vanish smoothly at both ends in u, where the trapezoid rule
+// converges fastest (alpha 1e-3 is recovered to 1e-3). Its weight at node 0 is zero; node 0 gets that of a linear
+// interpolant's first half cell, integral of (1 - u/h) theta dtheta, with the root mean square slope there, so that a
+// mirror, whose mass is all in node 0, has mass.
 Nodes make_nodes() {
     Nodes n;
     constexpr double h = 1.0 / nodes;
@@ -89,7 +89,7 @@ std::vector<double> normalise(const Nodes &n, std::vector<double> &ndf) {
 double relative_l1(const std::vector<double> &a, const std::vector<double> &b) {
     double change = 0.0;
     for (std::size_t j = 0; j < a.size(); ++j) change += std::abs(a[j] - b[j]);
-    return change;  // both sum to 1
+    return change; // both sum to 1
 }
 
 // Power iteration from a uniform distribution, whose first product is the retro-reflection itself.
@@ -111,7 +111,7 @@ std::vector<double> dominant_ndf(const Nodes &n, const Matrix &kernel, const Inv
     return ndf;
 }
 
-}  // namespace
+} // namespace
 
 void validate(const InversionOptions &o) {
     require(o.masking_kernel == MaskingKernel::Coincides || o.masking_kernel == MaskingKernel::Correlated,
@@ -142,4 +142,4 @@ SlopeDensity invert(const Brdf &brdf, const InversionOptions &options) {
     return density;
 }
 
-}  // namespace smx
+} // namespace smx

@@ -25,18 +25,18 @@ void validate(const InversionOptions &options);
 using FresnelCurves = std::array<std::vector<double>, 3>;
 
 struct SlopeDensity {
-    // On nodes in ascending slope: the density, the area of the slope plane that a node stands for, and mass = p22 area,
-    // which sums to 1.
+    // On nodes in ascending slope: the density, the area of the slope plane that a node stands for, and mass = p22
+    // area, which sums to 1.
     std::vector<double> slope, p22, area, mass;
     FresnelCurves fresnel;
     unsigned iterations = 0;
     bool converged = false;
-    double change = 0.0;  // relative L1 change of the last iteration
+    double change = 0.0; // relative L1 change of the last iteration
 
-    double alpha() const;  // sqrt of the mean squared slope: Beckmann's alpha for one lobe
+    double alpha() const; // sqrt of the mean squared slope: Beckmann's alpha for one lobe
 };
 
 // Throws NoSolution when the table reflects nothing back.
 SlopeDensity invert(const Brdf &brdf, const InversionOptions &options);
 
-}  // namespace smx
+} // namespace smx

@@ -29,7 +29,7 @@ double folded(const Brdf &brdf, std::size_t channel, std::size_t h, std::size_t 
     return sum / count;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<float> table_slice(const Brdf &brdf, double theta_d, Lookup lookup) {
     const Cut cut = cut_at(theta_d, lookup);
@@ -38,12 +38,12 @@ std::vector<float> table_slice(const Brdf &brdf, double theta_d, Lookup lookup) 
     for (std::size_t h = 0; h < Brdf::theta_h_count; ++h)
         for (std::size_t column = 0; column <= slice_columns; ++column) {
             for (std::size_t c = 0; c < 3; ++c)
-                slice.push_back(static_cast<float>(std::lerp(folded(brdf, c, h, cut.lower, column % slice_columns),
-                                                             folded(brdf, c, h, cut.upper, column % slice_columns),
-                                                             cut.share)));
+                slice.push_back(
+                    static_cast<float>(std::lerp(folded(brdf, c, h, cut.lower, column % slice_columns),
+                                                 folded(brdf, c, h, cut.upper, column % slice_columns), cut.share)));
             slice.push_back(0.0f);
         }
     return slice;
 }
 
-}  // namespace smx
+} // namespace smx

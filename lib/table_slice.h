@@ -15,4 +15,4 @@ std::vector<float> table_slice(const Brdf &brdf, double theta_d, Lookup lookup);
 // Columns over 0..pi, without the repeated one.
 constexpr std::size_t slice_columns = 180;
 
-}  // namespace smx
+} // namespace smx

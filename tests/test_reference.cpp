@@ -1,0 +1,121 @@
+// Pixels of the reference against the oracle's converged integral.
+#include <gtest/gtest.h>
+
+#include "close.h"
+#include "oracle_reference.h"
+#include "oracle_sphere.h"
+#include "support.h"
+
+using oracle::Integral;
+using oracle::Lookup;
+using oracle::Masking;
+using oracle::Table;
+
+namespace {
+
+// The accuracy asked of the reference. The oracle's own error is asserted to be a tenth of it.
+constexpr double pixel_tolerance = 0.01;
+constexpr double oracle_error = 0.001;
+// Pixels darker than this share of the brightest look into X's tail, where the grid's strata are as wide as the lobe:
+// at 1024 x 1024 samples their noise is up to 6e-4 of the brightest. test_statistics shows that it is only noise.
+constexpr double dark_share = 0.1;
+
+struct Setting {
+    const char *name;
+    smx_displacement x;
+    double light_deg;
+    smx_masking masking;
+};
+
+const std::vector<Setting> &settings() {
+    static const std::vector<Setting> list{
+        {"isotropic 0.25, camera", {0.25, 0.25, 0.0, 0.0, 0.0}, 90.0, SMX_G2_CORRELATED},
+        {"isotropic 0.5, right", {0.5, 0.5, 0.0, 0.0, 0.0}, 0.0, SMX_G2_CORRELATED},
+        {"isotropic 0.1, behind", {0.1, 0.1, 0.0, 0.0, 0.0}, -25.0, SMX_G2_CORRELATED},
+        {"latitudinal 0.25", {0.25, 0.0, 0.0, 0.0, 0.0}, 40.0, SMX_G2_CORRELATED},
+        {"longitudinal 0.5", {0.0, 0.5, 0.0, 0.0, 0.0}, 0.0, SMX_G2_CORRELATED},
+        {"correlated slopes", {0.4, 0.2, 0.6, 0.0, 0.0}, 40.0, SMX_G2_CORRELATED},
+        {"mean slope", {0.25, 0.25, 0.0, 0.3, -0.2}, 40.0, SMX_G2_CORRELATED},
+        {"mean slope on a line", {0.0, 0.3, 0.0, 0.1, 0.2}, 40.0, SMX_G2_CORRELATED},
+        {"mean slope alone", {0.0, 0.0, 0.0, 0.2, 0.1}, 40.0, SMX_G2_CORRELATED},
+        {"separable", {0.5, 0.5, 0.0, 0.0, 0.0}, -25.0, SMX_G2_SEPARABLE},
+    };
+    return list;
+}
+
+constexpr uint32_t resolution = 9;
+
+oracle::Pixel pixel_of(const Setting &s, uint32_t column, uint32_t row) {
+    return oracle::sphere_pixel(resolution, resolution, column, row, test::radians(s.light_deg));
+}
+
+double brightest(const test::Pixels &pixels) {
+    double peak = 0.0;
+    for (std::size_t k = 0; k < std::size_t{4} * resolution * resolution; ++k)
+        if (k % 4 != 3) peak = std::max(peak, static_cast<double>(pixels.rgba[k]));
+    return peak;
+}
+
+// Every fifth pixel against the integral.
+void expect_integral(smx_brdf brdf, const Table &table, const Setting &s) {
+    const smx_scene scene = test::make_scene(resolution, resolution, test::radians(s.light_deg), s.x, s.masking);
+    const test::Image image = test::render_reference(brdf, scene, test::make_options(1024 * 1024));
+    const test::Pixels pixels = test::pixels(image);
+    const double floor = pixel_tolerance * dark_share * brightest(pixels);
+    const oracle::FacetBrdf f = oracle::table_brdf(table, Lookup::linear);
+    for (uint32_t k = 0; k < resolution * resolution; k += 5) {
+        const uint32_t column = k % resolution, row = k / resolution;
+        const oracle::Pixel p = pixel_of(s, column, row);
+        if (!p.on_sphere) continue;
+        const Integral wanted = oracle::reference(f, test::masking(s.masking), test::gaussian(s.x), p.wi, p.wo);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double got = pixels.at(column, row)[c];
+            if (wanted.rgb[c] > floor) {
+                EXPECT_LT(wanted.error, oracle_error) << s.name;
+            }
+            EXPECT_TRUE(test::is_close(got, wanted.rgb[c], pixel_tolerance, floor))
+                << s.name << ", pixel " << column << " " << row << ", channel " << c << ": got " << got << ", wanted "
+                << wanted.rgb[c] << " (relative error " << got / wanted.rgb[c] - 1.0 << ", the oracle's "
+                << wanted.error << ", floor " << floor << ")";
+        }
+    }
+}
+
+void expect_integral_everywhere(smx_brdf brdf) {
+    const Table table = test::filled_table(brdf);
+    for (const Setting &s : settings()) expect_integral(brdf, table, s);
+}
+
+} // namespace
+
+TEST(Reference, BeckmannBase) {
+    expect_integral_everywhere(test::make_brdf(test::beckmann_table({{1.0, 0.05}}, Masking::correlated)));
+}
+
+TEST(Reference, TwoLobes) {
+    expect_integral_everywhere(test::make_brdf(test::beckmann_table({{0.2, 0.02}, {0.8, 0.4}}, Masking::correlated)));
+}
+
+TEST(Reference, BuiltinTwoLayer) {
+    test::Brdf brdf;
+    ASSERT_SMX_OK(smx_brdf_open("builtin:two-layer", brdf.out()));
+    expect_integral_everywhere(brdf);
+}
+
+// The integral itself moves by more than the tolerance when masking, mean slope or axes are wrong.
+TEST(Reference, ToleranceSeesWrongFormulas) {
+    const Table table = test::filled_table(test::make_brdf(test::beckmann_table({{1.0, 0.3}}, Masking::correlated)));
+    const oracle::FacetBrdf f = oracle::table_brdf(table, Lookup::linear);
+    // Light and view both graze, so that every part of the masking matters.
+    const oracle::Pixel p = oracle::sphere_pixel(9, 9, 6, 0, test::radians(-60.0));
+    const auto value = [&](Masking g, const smx_displacement &x) {
+        return oracle::reference(f, g, test::gaussian(x), p.wi, p.wo).rgb[0];
+    };
+    const double right = value(Masking::correlated, {0.5, 0.25, 0.0, 0.1, 0.0});
+    ASSERT_GT(right, 0.0);
+    for (const double wrong : {value(Masking::coinciding, {0.5, 0.25, 0.0, 0.1, 0.0}),
+                               value(Masking::correlated, {0.25, 0.5, 0.0, 0.1, 0.0}),
+                               value(Masking::correlated, {0.5, 0.25, 0.0, -0.1, 0.0}),
+                               value(Masking::correlated, {0.5, 0.25, 0.5, 0.1, 0.0})})
+        EXPECT_FALSE(test::is_close(wrong, right, pixel_tolerance, 0.0)) << wrong << " against " << right;
+}

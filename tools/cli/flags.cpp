@@ -1,0 +1,58 @@
+// The flags that render and sheet share.
+#include "flags.h"
+
+#include <cmath>
+
+namespace slopemix::cli {
+
+namespace {
+
+constexpr CountRange spp_range = {1, 1u << 24};
+
+bool is_square(std::uint32_t value) {
+    const auto root = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(value))));
+    return root * root == value;
+}
+
+} // namespace
+
+void add_fit_flags(CLI::App &command, FitFlags &flags) {
+    const auto parse_lobes = [](const std::string &text) {
+        return static_cast<std::uint32_t>(parse_count(text, lobes_range));
+    };
+    add_parsed(command, "--lobes", flags.lobes, parse_lobes, "Beckmann lobes to fit, 1 to 64 (default 8)")
+        ->type_name("N");
+    add_choice(command, "--model", flags.model, models,
+               "One Fresnel curve per channel for all lobes, or one for each (default per-lobe)");
+}
+
+void add_render_flags(CLI::App &command, RenderFlags &flags) {
+    add_parsed(command, "--res", flags.resolution, parse_resolution,
+               "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
+        ->type_name("W[xH]");
+    const auto parse_spp = [](const std::string &text) {
+        return static_cast<std::uint32_t>(parse_count(text, spp_range));
+    };
+    add_parsed(command, "--spp", flags.spp, parse_spp,
+               "Samples per pixel of the reference; a square for grid, even for mis (default 65536)")
+        ->type_name("N");
+    add_choice(command, "--sampler", flags.sampler, samplers, "Sampler of the reference (default grid)");
+    const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
+    add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
+    add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
+    add_choice(command, "--g", flags.masking, maskings,
+               "Masking and shadowing, height-correlated or separable (default correlated)");
+    command.add_option("--device", flags.device, "OpenCL device: its number in `slopemix info`, or part of its name")
+        ->type_name("D");
+}
+
+void require_legal_spp(const RenderFlags &flags) {
+    const auto refuse = [&](const std::string &demand) {
+        throw CLI::ValidationError("--spp", "'" + std::to_string(flags.spp) + "' is not " + demand);
+    };
+    if (flags.sampler == SMX_SAMPLER_GRID && !is_square(flags.spp))
+        refuse("a square such as 4096 or 65536, which the grid needs");
+    if (flags.sampler == SMX_SAMPLER_MIS && flags.spp % 2 != 0) refuse("even, which mis needs");
+}
+
+} // namespace slopemix::cli

@@ -1,0 +1,68 @@
+// Flags whose values are parsed and checked by us, and the flags that render and sheet share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "parse.h"
+#include "slopemix.h"
+
+namespace slopemix::cli {
+
+inline constexpr NumberRange alpha_range = {0.0, 1e4};
+inline constexpr CountRange lobes_range = {1, SMX_MAX_LOBES};
+
+inline constexpr Choice<smx_model> models[] = {{"shared", SMX_MODEL_SHARED}, {"per-lobe", SMX_MODEL_PER_LOBE}};
+inline constexpr Choice<smx_sampler> samplers[] = {
+    {"grid", SMX_SAMPLER_GRID}, {"sobol", SMX_SAMPLER_SOBOL}, {"mis", SMX_SAMPLER_MIS}};
+inline constexpr Choice<smx_lookup> lookups[] = {{"linear", SMX_LOOKUP_LINEAR}, {"nearest", SMX_LOOKUP_NEAREST}};
+inline constexpr Choice<smx_masking> maskings[] = {{"correlated", SMX_G2_CORRELATED}, {"separable", SMX_G2_SEPARABLE}};
+
+// Adds an option that stores parse(text); what parse refuses is wrong usage. `target` must outlive the parsing.
+template <class Target, class Parse>
+CLI::Option *add_parsed(CLI::App &command, const std::string &flag, Target &target, Parse parse,
+                        const std::string &help) {
+    const auto store = [&target, parse, flag](const std::string &text) {
+        try {
+            target = parse(text);
+        } catch (const std::invalid_argument &error) {
+            throw CLI::ValidationError(flag, error.what());
+        }
+    };
+    return command.add_option_function<std::string>(flag, store, help);
+}
+
+template <class Value, std::size_t count>
+CLI::Option *add_choice(CLI::App &command, const std::string &flag, Value &target,
+                        const Choice<Value> (&choices)[count], const std::string &help) {
+    const auto parse = [&choices](const std::string &text) { return parse_choice(text, choices); };
+    return add_parsed(command, flag, target, parse, help)->type_name(words_of(choices));
+}
+
+// What is fitted to a table.
+struct FitFlags {
+    smx_model model = SMX_MODEL_PER_LOBE;
+    std::uint32_t lobes = 8;
+};
+
+void add_fit_flags(CLI::App &command, FitFlags &flags);
+
+// What every image of a command has in common.
+struct RenderFlags {
+    Resolution resolution = {128, 128};
+    std::uint32_t spp = 65536;
+    smx_sampler sampler = SMX_SAMPLER_GRID;
+    std::uint64_t seed = 0;
+    smx_lookup lookup = SMX_LOOKUP_LINEAR;
+    smx_masking masking = SMX_G2_CORRELATED;
+    std::string device; // empty: the library's choice
+};
+
+void add_render_flags(CLI::App &command, RenderFlags &flags);
+
+// Throws CLI::ValidationError if the sampler cannot take this number of samples.
+void require_legal_spp(const RenderFlags &flags);
+
+} // namespace slopemix::cli

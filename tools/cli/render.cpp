@@ -1,0 +1,169 @@
+// slopemix render: one image of the displaced sphere, by the filter or by the reference.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "exposure.h"
+#include "input.h"
+#include "output.h"
+#include "progress.h"
+#include "render_job.h"
+
+namespace slopemix::cli {
+
+namespace {
+
+constexpr NumberRange rho_range = {-1.0, 1.0}; // its ends are refused: a degenerate covariance
+constexpr NumberRange mean_slope_range = {-1e4, 1e4};
+constexpr NumberRange light_range = {-1e6, 1e6};
+
+double parse_rho(const std::string &text) {
+    const double rho = parse_number(text, rho_range);
+    if (rho == rho_range.low || rho == rho_range.high)
+        throw std::invalid_argument("'" + text + "' is not between -1 and 1");
+    return rho;
+}
+
+void require_legal_usage(const RenderJob &job) {
+    if (std::filesystem::path(job.out).extension() != ".exr")
+        throw CLI::ValidationError("--out", "'" + job.out + "' does not end in .exr");
+    if (job.is_reference() && is_material_file(job.input))
+        throw CLI::ValidationError("INPUT",
+                                   "the reference needs a measured table, and '" + job.input + "' is a material file");
+    require_legal_spp(job.flags);
+}
+
+// A flag of the other integrator is no error, so that one set of flags serves both; but it is said.
+void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
+    const auto note = [&](const char *flag) {
+        if (command.count(flag) > 0)
+            std::cerr << "slopemix: note: " << flag << " has no effect with --integrator "
+                      << word_for(job.integrator, integrators) << '\n';
+    };
+    if (job.is_reference())
+        for (const char *flag : {"--lobes", "--model"}) note(flag);
+    else
+        for (const char *flag : {"--spp", "--sampler", "--seed", "--lookup"}) note(flag);
+}
+
+Material load_material(const RenderJob &job) {
+    Material material = acquire<Material>(smx_material_load, job.input.c_str());
+    const smx_material_info info = info_of(material);
+    if (job.lobes_given && info.lobes != job.fit.lobes)
+        throw CommandError(job.input + " holds " + std::to_string(info.lobes) + " lobes, and --lobes asks for " +
+                           std::to_string(job.fit.lobes));
+    if (job.model_given && info.model != job.fit.model)
+        throw CommandError(job.input + " holds the " + word_for(info.model, models) + " model, and --model asks for " +
+                           word_for(job.fit.model, models));
+    return material;
+}
+
+Rendered render_filtered(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
+    const Context context = open_context(job.flags.device);
+    const Material material =
+        is_material_file(job.input) ? load_material(job) : fit(invert(open_brdf(job.input)), job.fit);
+    const smx_material_info info = info_of(material);
+    return {render_filtered(context, material, view, options),
+            info.name,
+            info.model,
+            info.lobes,
+            info_of(context).name,
+            1.0};
+}
+
+Rendered render_reference(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
+    const Context context = open_context(job.flags.device);
+    const Brdf brdf = open_brdf(job.input);
+    return {render_reference(context, brdf, view, options),
+            info_of(brdf).name,
+            SMX_MODEL_SHARED,
+            0,
+            info_of(context).name,
+            1.0};
+}
+
+Rendered render(const RenderJob &job) {
+    const smx_scene view = scene(job.flags, job.displacement(), job.light_degrees);
+    smx_render_options options = render_options(job.flags);
+    Progress progress(1.0);
+    progress.attach(options);
+
+    progress.start("rendering " + name_of(job.input), 1.0);
+    Rendered rendered = job.is_reference() ? render_reference(job, view, options) : render_filtered(job, view, options);
+    progress.finish();
+    rendered.exposure = exposure_for(bright_value(rendered.rendering.image));
+    return rendered;
+}
+
+void write(const RenderJob &job, const Rendered &rendered) {
+    const smx_image image = rendered.rendering.image.get();
+    StagedFiles files;
+    files.write(job.out, [&](const auto &file) { check(smx_image_write_exr(image, file.c_str())); });
+    if (job.png)
+        files.write(job.png_file(),
+                    [&](const auto &file) { check(smx_image_write_png(image, file.c_str(), rendered.exposure)); });
+    files.commit();
+}
+
+void run(const RenderJob &job) {
+    require_legal_usage(job);
+    require_writable(job.out);
+    if (job.png) require_writable(job.png_file());
+    const Rendered rendered = render(job);
+    write(job, rendered);
+    if (job.json)
+        print_json(job, rendered);
+    else
+        print_text(job, rendered);
+}
+
+void add_scene_flags(CLI::App &command, RenderJob &job) {
+    const auto pair_in = [](NumberRange range) {
+        return [range](const std::string &text) { return parse_pair(text, range); };
+    };
+    const auto parse_light = [](const std::string &text) { return parse_number(text, light_range); };
+    add_parsed(command, "--alpha", job.alpha, pair_in(alpha_range), "Roughness of the displaced surface; 0 is legal")
+        ->required()
+        ->type_name("AX,AY");
+    add_parsed(command, "--rho", job.rho, parse_rho, "Correlation of its two slopes, between -1 and 1 (default 0)")
+        ->type_name("R");
+    add_parsed(command, "--mean-slope", job.mean_slope, pair_in(mean_slope_range), "Its mean slope (default 0,0)")
+        ->type_name("MX,MY");
+    add_parsed(command, "--light", job.light_degrees, parse_light,
+               "Azimuth of the light in degrees: 90 at the camera, 0 to the right, negative behind")
+        ->required()
+        ->type_name("PHI_DEG");
+}
+
+} // namespace
+
+void add_render(CLI::App &app) {
+    CLI::App *command = app.add_subcommand("render", "Render the displaced sphere into an EXR file");
+    const auto job = std::make_shared<RenderJob>();
+    command->add_option("INPUT", job->input, "A MERL table (.binary), builtin:NAME or a material file (.json)")
+        ->required()
+        ->type_name("");
+    add_choice(*command, "--integrator", job->integrator, integrators,
+               "The mixture widened in closed form, or the measured table integrated over the surface's facets")
+        ->required();
+    add_scene_flags(*command, *job);
+    add_fit_flags(*command, job->fit);
+    add_render_flags(*command, job->flags);
+    command->add_option("--out", job->out, "The image to write")->required()->type_name("X.exr");
+    command->add_flag("--png", job->png, "Also write X.png: sRGB, the 99th percentile at 0.9");
+    command->add_flag("--json", job->json, "Print JSON");
+    command->footer(
+        "The flags of the reference (--spp, --sampler, --seed, --lookup) have no effect on filtered images, nor those\n"
+        "of the fit (--lobes, --model) on the reference. A material file must hold what the latter two ask for.");
+    command->callback([command, job] {
+        job->lobes_given = command->count("--lobes") > 0;
+        job->model_given = command->count("--model") > 0;
+        note_flags_without_effect(*command, *job);
+        run(*job);
+    });
+}
+
+} // namespace slopemix::cli

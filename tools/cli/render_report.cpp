@@ -1,0 +1,79 @@
+// What `slopemix render` prints.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "render_job.h"
+#include "text.h"
+
+namespace slopemix::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double per_sample(const smx_render_report &report) {
+    return seconds_per_sample(report.seconds, report.build_seconds, report.evaluations);
+}
+
+// The grid has no estimate of its error.
+bool has_error(const RenderJob &job, const smx_render_report &report) {
+    return job.is_reference() && report.standard_error >= 0.0;
+}
+
+Json configuration(const RenderJob &job, const Rendered &rendered) {
+    Json json = {{"input", job.input}, {"material", rendered.name}};
+    json["integrator"] = word_for(job.integrator, integrators);
+    json["model"] = job.is_reference() ? Json() : Json(word_for(rendered.model, models));
+    json["lobes"] = job.is_reference() ? Json() : Json(rendered.lobes);
+    json["alpha_x"] = job.alpha.first;
+    json["alpha_y"] = job.alpha.second;
+    json["rho"] = job.rho;
+    json["mean_slope"] = {job.mean_slope.first, job.mean_slope.second};
+    json["light_phi_deg"] = job.light_degrees;
+    json["g"] = word_for(job.flags.masking, maskings);
+    json["resolution"] = {job.flags.resolution.width, job.flags.resolution.height};
+    json["spp"] = job.is_reference() ? Json(job.flags.spp) : Json();
+    json["sampler"] = job.is_reference() ? Json(word_for(job.flags.sampler, samplers)) : Json();
+    json["seed"] = job.is_reference() ? Json(job.flags.seed) : Json();
+    json["lookup"] = job.is_reference() ? Json(word_for(job.flags.lookup, lookups)) : Json();
+    json["device"] = rendered.device;
+    return json;
+}
+
+} // namespace
+
+void print_json(const RenderJob &job, const Rendered &rendered) {
+    const smx_render_report &report = rendered.rendering.report;
+    Json document = {{"version", SMX_VERSION_STRING}};
+    document.update(configuration(job, rendered));
+    document["out"] = job.out;
+    document["png"] = job.png ? Json(job.png_file().string()) : Json();
+    document["exposure"] = job.png ? Json(rendered.exposure) : Json();
+    document["standard_error"] = has_error(job, report) ? Json(report.standard_error) : Json();
+    document["seconds"] = report.seconds;
+    document["kernel_seconds"] = report.kernel_seconds;
+    document["build_seconds"] = report.build_seconds;
+    document["evaluations"] = report.evaluations;
+    document["seconds_per_sample"] = per_sample(report);
+    std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void print_text(const RenderJob &job, const Rendered &rendered) {
+    const smx_render_report &report = rendered.rendering.report;
+    Facts facts = {{"material", rendered.name}};
+    facts.emplace_back("integrator", job.is_reference()
+                                         ? "reference, samples per pixel: " + std::to_string(job.flags.spp)
+                                         : std::string("filtered, ") + word_for(rendered.model, models) +
+                                               ", lobes: " + std::to_string(rendered.lobes));
+    if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
+    facts.emplace_back("device", rendered.device);
+    facts.emplace_back("seconds", fixed(report.seconds, 3) + " (on the device " + fixed(report.kernel_seconds, 3) +
+                                      ", compiling kernels " + fixed(report.build_seconds, 3) + ")");
+    facts.emplace_back("per sample",
+                       general(1e9 * per_sample(report), 3) + " ns, of " + std::to_string(report.evaluations));
+    facts.emplace_back("written", job.out);
+    if (job.png) facts.emplace_back("", job.png_file().string() + " at exposure " + general(rendered.exposure, 4));
+    print_facts(std::cout, facts);
+}
+
+} // namespace slopemix::cli

@@ -1,0 +1,56 @@
+// Calls of the rendering functions, with their two results as one.
+#include "renderings.h"
+
+#include <numbers>
+
+namespace slopemix::cli {
+
+namespace {
+
+Rendering rendering(auto render, auto... arguments) {
+    smx_image image = nullptr;
+    smx_render_report report = SMX_RENDER_REPORT_INIT;
+    check(render(arguments..., &image, &report));
+    return {Image(image), report};
+}
+
+} // namespace
+
+smx_render_options render_options(const RenderFlags &flags) {
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.sampler = flags.sampler;
+    options.spp = flags.spp;
+    options.seed = flags.seed;
+    options.lookup = flags.lookup;
+    return options;
+}
+
+smx_scene scene(const RenderFlags &flags, const smx_displacement &displacement, double light_degrees) {
+    smx_scene scene = SMX_SCENE_INIT;
+    scene.width = flags.resolution.width;
+    scene.height = flags.resolution.height;
+    scene.light_phi = light_degrees * std::numbers::pi / 180.0;
+    scene.displacement = displacement;
+    scene.masking = flags.masking;
+    return scene;
+}
+
+Rendering render_filtered(const Context &context, const Material &material, const smx_scene &scene,
+                          const smx_render_options &options) {
+    return rendering(smx_render_filtered, context.get(), material.get(), &scene, &options);
+}
+
+Rendering render_reference(const Context &context, const Brdf &brdf, const smx_scene &scene,
+                           const smx_render_options &options) {
+    return rendering(smx_render_reference, context.get(), brdf.get(), &scene, &options);
+}
+
+Rendering render_geometry(const Context &context, const smx_scene &scene, const smx_render_options &options) {
+    return rendering(smx_render_geometry, context.get(), &scene, &options);
+}
+
+double seconds_per_sample(double seconds, double build_seconds, std::uint64_t evaluations) {
+    return evaluations == 0 ? 0.0 : (seconds - build_seconds) / static_cast<double>(evaluations);
+}
+
+} // namespace slopemix::cli

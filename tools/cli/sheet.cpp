@@ -1,0 +1,88 @@
+// slopemix sheet: the displaced-sphere experiment, 90 images with their errors and a contact sheet.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "input.h"
+#include "sheet_job.h"
+
+namespace slopemix::cli {
+
+namespace {
+
+SheetPlan plan_of(const SheetJob &job) {
+    try {
+        return SheetPlan(job.radii, job.lobes, job.only);
+    } catch (const std::invalid_argument &error) {
+        throw CLI::ValidationError("--only", error.what());
+    }
+}
+
+void require_legal_usage(const SheetJob &job) {
+    require_legal_spp(job.flags);
+    if (is_material_file(job.input))
+        throw CLI::ValidationError("INPUT",
+                                   "the sheet needs a measured table, and '" + job.input + "' is a material file");
+}
+
+void run(const SheetJob &job) {
+    const auto begin = std::chrono::steady_clock::now();
+    require_legal_usage(job);
+    const SheetPlan plan = plan_of(job);
+    require_writable(job.file("sheet.json"));
+    require_writable(job.file("sheet.png"));
+    for (const SheetStep &step : plan.steps())
+        if (step.is_output) require_writable(job.image_file(step.image.id));
+
+    StagedFiles files;
+    SheetResult result = render_sheet(job, plan, files);
+    files.write(job.file("sheet.png"), [&](const auto &file) { draw_sheet(job, plan, result, file); });
+    result.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const std::string document = sheet_json(job, result);
+    files.write(job.file("sheet.json"), [&](const auto &file) { write_text(file, document); });
+    files.commit();
+
+    if (job.json)
+        std::cout << document;
+    else
+        print_summary(job, result);
+}
+
+std::vector<std::uint32_t> parse_lobes(const std::string &text) {
+    std::vector<std::uint32_t> lobes = parse_counts(text, lobes_range);
+    for (auto later = lobes.begin(); later != lobes.end(); ++later)
+        if (std::find(lobes.begin(), later, *later) != later)
+            throw std::invalid_argument("'" + text + "' names " + std::to_string(*later) + " twice");
+    return lobes;
+}
+
+} // namespace
+
+void add_sheet(CLI::App &app) {
+    CLI::App *command = app.add_subcommand(
+        "sheet", "Render the displaced-sphere sheet: T.R.C.exr, the contact sheet sheet.png, and sheet.json");
+    const auto job = std::make_shared<SheetJob>();
+    command->add_option("INPUT", job->input, "A MERL table (.binary) or builtin:NAME")->required()->type_name("");
+    command->add_option("--out", job->out, "Folder of the sheet")->required()->type_name("DIR");
+    const auto parse_radii = [](const std::string &text) { return parse_numbers(text, alpha_range); };
+    add_parsed(*command, "--radii", job->radii, parse_radii, "Roughnesses r, a row each (default 0.1,0.25,0.5)")
+        ->type_name("R,...");
+    add_parsed(*command, "--lobes", job->lobes, parse_lobes, "Numbers of lobes, a filtered image each (default 1,8)")
+        ->type_name("N,...");
+    add_parsed(*command, "--only", job->only, parse_image_ids, "Only these images (default all)")
+        ->type_name("T.R.C,...");
+    add_render_flags(*command, job->flags);
+    command->add_flag("--json", job->json, "Print sheet.json");
+    command->footer(
+        "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
+        "Columns C: 1 the geometry, then for each light (90, 0, -25 degrees) the reference and one filtered image per\n"
+        "entry of --lobes. A filtered image that --only names without its reference is compared with DIR's, if that\n"
+        "was made with the same settings, or else with one that is rendered for the purpose and not kept.");
+    command->callback([job] { run(*job); });
+}
+
+} // namespace slopemix::cli

@@ -1,0 +1,69 @@
+// What `slopemix sheet` is asked for and what comes out.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flags.h"
+#include "handles.h"
+#include "output.h"
+#include "sheet_plan.h"
+
+namespace slopemix::cli {
+
+struct SheetJob {
+    std::string input, out;
+    RenderFlags flags;
+    std::vector<double> radii = {0.1, 0.25, 0.5};
+    std::vector<std::uint32_t> lobes = {1, 8};
+    std::vector<ImageId> only;
+    bool json = false;
+
+    std::filesystem::path file(const std::string &name) const { return std::filesystem::path(out) / name; }
+    std::filesystem::path image_file(const ImageId &id) const { return file(to_string(id) + ".exr"); }
+};
+
+struct SheetEntry {
+    SheetImage image;
+    std::filesystem::path file; // where it is before the sheet is complete
+    std::string model;          // of filtered images; else empty
+    double seconds;
+    std::optional<smx_comparison> errors; // of filtered images
+};
+
+struct SheetFit {
+    std::uint32_t lobes; // asked for
+    smx_fit_report report;
+};
+
+struct SheetResult {
+    smx_brdf_info material;
+    std::string device;
+    std::vector<SheetFit> fits;
+    std::vector<SheetEntry> entries;
+    double geometry_bright = 0.0;                            // largest 99th percentile of the geometry images
+    std::array<double, light_degrees.size()> light_bright{}; // and of the references, light by light
+    double reference_seconds = 0.0;                          // of references that were rendered
+    std::uint64_t reference_samples = 0;
+    double total_seconds = 0.0;
+
+    double seconds_per_reference_sample() const {
+        return reference_samples == 0 ? 0.0 : reference_seconds / static_cast<double>(reference_samples);
+    }
+};
+
+// Renders the plan's images under the staged names of their files.
+SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, StagedFiles &files);
+
+// The contact sheet of what was rendered.
+void draw_sheet(const SheetJob &job, const SheetPlan &plan, const SheetResult &result,
+                const std::filesystem::path &file);
+
+// sheet.json, and the summary on standard output.
+std::string sheet_json(const SheetJob &job, const SheetResult &result);
+void print_summary(const SheetJob &job, const SheetResult &result);
+
+} // namespace slopemix::cli

@@ -1,0 +1,61 @@
+// The sheet's images: which there are, what each shows, and in which order they are rendered. Three tables by the
+// direction of the roughness, a row per radius r, and the columns: geometry, then for each light the reference and
+// one filtered image per number of lobes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "parse.h"
+
+namespace slopemix::cli {
+
+inline constexpr std::uint32_t table_count = 3;
+inline constexpr std::array<double, 3> light_degrees = {90.0, 0.0, -25.0};
+
+enum class Role { geometry, reference, filtered };
+
+struct SheetImage {
+    ImageId id;
+    Role role;
+    double alpha_x, alpha_y;
+    std::size_t light;   // index into light_degrees; not of geometry
+    std::uint32_t lobes; // asked for; of filtered images only
+
+    bool has_light() const { return role != Role::geometry; }
+};
+
+struct SheetStep {
+    SheetImage image;
+    bool is_output; // false: a reference that is needed for comparison only
+};
+
+class SheetPlan {
+  public:
+    // `only` empty: all images. Throws std::invalid_argument for an image that the sheet does not have.
+    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, const std::vector<ImageId> &only);
+
+    const std::vector<double> &radii() const { return radii_; }
+    const std::vector<std::uint32_t> &lobes() const { return lobes_; }
+    std::uint32_t rows() const { return static_cast<std::uint32_t>(radii_.size()); }
+    std::uint32_t columns() const { return 1 + static_cast<std::uint32_t>(light_degrees.size()) * per_light(); }
+
+    SheetImage image(ImageId id) const;
+
+    // Table by table, row by row; a filtered image always comes after its reference.
+    std::vector<SheetStep> steps() const;
+
+  private:
+    std::uint32_t per_light() const { return 1 + static_cast<std::uint32_t>(lobes_.size()); }
+    bool is_wanted(const ImageId &id) const { return only_.empty() || only_.contains(id); }
+    bool is_compared_with(const ImageId &reference) const;
+
+    std::vector<double> radii_;
+    std::vector<std::uint32_t> lobes_;
+    std::set<ImageId> only_;
+};
+
+} // namespace slopemix::cli

@@ -1,0 +1,169 @@
+// sheet.json (schema below, in the order of its keys) and the summary table.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "exposure.h"
+#include "sheet_job.h"
+#include "text.h"
+
+namespace slopemix::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int schema_version = 1;
+
+// The errors of all filtered images with one number of lobes.
+struct LobesSummary {
+    std::uint32_t lobes;
+    std::size_t images = 0;
+    double mean_relrmse = 0.0, mean_bias = 0.0;
+    const SheetEntry *worst = nullptr;
+};
+
+LobesSummary summarise(const std::vector<SheetEntry> &entries, std::uint32_t lobes) {
+    LobesSummary summary = {lobes};
+    for (const SheetEntry &entry : entries) {
+        if (!entry.errors || entry.image.lobes != lobes) continue;
+        ++summary.images;
+        summary.mean_relrmse += entry.errors->relrmse;
+        summary.mean_bias += entry.errors->bias;
+        if (!summary.worst || entry.errors->relrmse > summary.worst->errors->relrmse) summary.worst = &entry;
+    }
+    const double count = std::max(1.0, static_cast<double>(summary.images));
+    summary.mean_relrmse /= count;
+    summary.mean_bias /= count;
+    return summary;
+}
+
+std::vector<LobesSummary> summaries(const SheetJob &job, const SheetResult &result) {
+    std::vector<LobesSummary> all;
+    for (const std::uint32_t lobes : job.lobes) {
+        const LobesSummary summary = summarise(result.entries, lobes);
+        if (summary.images > 0) all.push_back(summary);
+    }
+    return all;
+}
+
+const char *integrator_of(Role role) {
+    switch (role) {
+        case Role::geometry:
+            return "geometry";
+        case Role::reference:
+            return "reference";
+        case Role::filtered:
+            return "filtered";
+    }
+    return "unknown";
+}
+
+Json image_json(const SheetJob &job, const SheetEntry &entry) {
+    const SheetImage &image = entry.image;
+    const bool filtered = image.role == Role::filtered;
+    Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
+    json["alpha_x"] = image.alpha_x;
+    json["alpha_y"] = image.alpha_y;
+    json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
+    json["lobes"] = filtered ? Json(image.lobes) : Json();
+    json["model"] = filtered ? Json(entry.model) : Json();
+    json["spp"] = image.role == Role::reference ? Json(job.flags.spp) : Json();
+    json["seconds"] = entry.seconds;
+    if (entry.errors) {
+        json["relrmse"] = entry.errors->relrmse;
+        json["max_error"] = entry.errors->max_error;
+        json["bias"] = entry.errors->bias;
+    }
+    return json;
+}
+
+Json fits_json(const SheetResult &result) {
+    Json fits = Json::array();
+    for (const SheetFit &fit : result.fits)
+        fits.push_back({{"lobes", fit.lobes},
+                        {"fitted_lobes", fit.report.lobes},
+                        {"log_likelihood", fit.report.log_likelihood},
+                        {"residual", fit.report.residual},
+                        {"seconds", fit.report.seconds}});
+    return fits;
+}
+
+Json summary_json(const SheetJob &job, const SheetResult &result) {
+    Json json = Json::array();
+    for (const LobesSummary &summary : summaries(job, result))
+        json.push_back({{"lobes", summary.lobes},
+                        {"images", summary.images},
+                        {"mean_relrmse", summary.mean_relrmse},
+                        {"mean_bias", summary.mean_bias},
+                        {"worst_relrmse", summary.worst->errors->relrmse},
+                        {"worst_image", to_string(summary.worst->image.id)}});
+    return json;
+}
+
+Json settings_json(const SheetJob &job, const SheetResult &result) {
+    const RenderFlags &flags = job.flags;
+    return {{"device", result.device},
+            {"resolution", {flags.resolution.width, flags.resolution.height}},
+            {"radii", job.radii},
+            {"lobes", job.lobes},
+            {"spp", flags.spp},
+            {"sampler", word_for(flags.sampler, samplers)},
+            {"seed", flags.seed},
+            {"lookup", word_for(flags.lookup, lookups)},
+            {"g", word_for(flags.masking, maskings)}};
+}
+
+Json exposures_json(const SheetResult &result) {
+    Json exposures = Json::array();
+    for (std::size_t light = 0; light < light_degrees.size(); ++light)
+        if (result.light_bright[light] > 0.0)
+            exposures.push_back(
+                {{"light_phi_deg", light_degrees[light]}, {"exposure", exposure_for(result.light_bright[light])}});
+    return exposures;
+}
+
+} // namespace
+
+std::string sheet_json(const SheetJob &job, const SheetResult &result) {
+    Json document = {{"schema", schema_version}, {"version", SMX_VERSION_STRING}};
+    document["material"] = result.material.name;
+    document["source"] = result.material.source;
+    document["sha256"] = result.material.sha256;
+    document.update(settings_json(job, result));
+    document["total_seconds"] = result.total_seconds;
+    document["reference_seconds"] = result.reference_seconds;
+    document["seconds_per_reference_sample"] = result.seconds_per_reference_sample();
+    document["fits"] = fits_json(result);
+    document["summary"] = summary_json(job, result);
+    document["exposures"] = exposures_json(result);
+    document["images"] = Json::array();
+    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(job, entry));
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void print_summary(const SheetJob &job, const SheetResult &result) {
+    const RenderFlags &flags = job.flags;
+    std::cout << result.material.name << ": " << result.entries.size() << " images of " << flags.resolution.width
+              << " x " << flags.resolution.height << ", references of " << flags.spp << " samples per pixel, in "
+              << job.out << "\n\n";
+
+    std::vector<TextRow> rows = {{"N", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};
+    for (const LobesSummary &summary : summaries(job, result))
+        rows.push_back({std::to_string(summary.lobes), std::to_string(summary.images), fixed(summary.mean_relrmse, 4),
+                        fixed(summary.worst->errors->relrmse, 4), to_string(summary.worst->image.id),
+                        fixed(summary.mean_bias, 4)});
+    if (rows.size() > 1) {
+        print_table(std::cout, rows);
+        std::cout << '\n';
+    }
+
+    Facts facts = {{"total seconds", fixed(result.total_seconds, 2)}};
+    if (result.reference_samples > 0)
+        facts.emplace_back("seconds per reference sample", general(result.seconds_per_reference_sample(), 3));
+    facts.emplace_back("contact sheet", job.file("sheet.png").string());
+    print_facts(std::cout, facts);
+}
+
+} // namespace slopemix::cli
