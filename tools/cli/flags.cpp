@@ -3,11 +3,14 @@
 
 #include <cmath>
 
+#include "text.h"
+
 namespace slopemix::cli {
 
 namespace {
 
 constexpr CountRange spp_range = {1, 1u << 24};
+constexpr NumberRange target_error_range = {1e-6, 0.5};
 
 bool is_square(std::uint32_t value) {
     const auto root = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(value))));
@@ -37,6 +40,10 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
                "Samples per pixel of the reference; a square for grid, even for mis (default 65536)")
         ->type_name("N");
     add_choice(command, "--sampler", flags.sampler, samplers, "Sampler of the reference (default grid)");
+    const auto parse_error = [](const std::string &text) { return parse_number(text, target_error_range); };
+    add_parsed(command, "--target-error", flags.target_error, parse_error,
+               "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E")
+        ->type_name("E");
     const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
     add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
@@ -46,7 +53,17 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
         ->type_name("D");
 }
 
-void require_legal_spp(const RenderFlags &flags) {
+std::string sampling_text(const RenderFlags &flags) {
+    if (flags.target_error > 0.0) return "standard error " + general(flags.target_error, 3);
+    return std::to_string(flags.spp) + " samples per pixel";
+}
+
+void require_legal_sampling(const RenderFlags &flags) {
+    if (flags.target_error > 0.0) {
+        if (flags.sampler == SMX_SAMPLER_GRID)
+            throw CLI::ValidationError("--target-error", "the grid has no estimate of its error; use sobol or mis");
+        return;
+    }
     const auto refuse = [&](const std::string &demand) {
         throw CLI::ValidationError("--spp", "'" + std::to_string(flags.spp) + "' is not " + demand);
     };

@@ -54,6 +54,7 @@ struct RenderFlags {
     Resolution resolution = {128, 128};
     std::uint32_t spp = 65536;
     smx_sampler sampler = SMX_SAMPLER_GRID;
+    double target_error = 0.0; // 0: spp samples
     std::uint64_t seed = 0;
     smx_lookup lookup = SMX_LOOKUP_LINEAR;
     smx_masking masking = SMX_G2_CORRELATED;
@@ -62,7 +63,10 @@ struct RenderFlags {
 
 void add_render_flags(CLI::App &command, RenderFlags &flags);
 
-// Throws CLI::ValidationError if the sampler cannot take this number of samples.
-void require_legal_spp(const RenderFlags &flags);
+// How a reference is sampled: "4096 samples per pixel" or "standard error 0.01".
+std::string sampling_text(const RenderFlags &flags);
+
+// Throws CLI::ValidationError if the sampler cannot take this number of samples, or has no error to reach.
+void require_legal_sampling(const RenderFlags &flags);
 
 } // namespace slopemix::cli

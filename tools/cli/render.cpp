@@ -33,7 +33,7 @@ void require_legal_usage(const RenderJob &job) {
     if (job.is_reference() && is_material_file(job.input))
         throw CLI::ValidationError("INPUT",
                                    "the reference needs a measured table, and '" + job.input + "' is a material file");
-    require_legal_spp(job.flags);
+    require_legal_sampling(job.flags);
 }
 
 // A flag of the other integrator is no error, so that one set of flags serves both; but it is said.
@@ -46,7 +46,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
     if (job.is_reference())
         for (const char *flag : {"--lobes", "--model"}) note(flag);
     else
-        for (const char *flag : {"--spp", "--sampler", "--seed", "--lookup"}) note(flag);
+        for (const char *flag : {"--spp", "--target-error", "--sampler", "--seed", "--lookup"}) note(flag);
 }
 
 Material load_material(const RenderJob &job) {
@@ -156,8 +156,9 @@ void add_render(CLI::App &app) {
     command->add_flag("--png", job->png, "Also write X.png: sRGB, the 99th percentile at 0.9");
     command->add_flag("--json", job->json, "Print JSON");
     command->footer(
-        "The flags of the reference (--spp, --sampler, --seed, --lookup) have no effect on filtered images, nor those\n"
-        "of the fit (--lobes, --model) on the reference. A material file must hold what the latter two ask for.");
+        "The flags of the reference (--spp, --target-error, --sampler, --seed, --lookup) have no effect on filtered\n"
+        "images, nor those of the fit (--lobes, --model) on the reference. A material file must hold what the latter\n"
+        "two ask for.");
     command->callback([command, job] {
         job->lobes_given = command->count("--lobes") > 0;
         job->model_given = command->count("--model") > 0;

@@ -32,7 +32,8 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["light_phi_deg"] = job.light_degrees;
     json["g"] = word_for(job.flags.masking, maskings);
     json["resolution"] = {job.flags.resolution.width, job.flags.resolution.height};
-    json["spp"] = job.is_reference() ? Json(job.flags.spp) : Json();
+    json["spp"] = job.is_reference() ? Json(rendered.rendering.report.spp) : Json();
+    json["target_error"] = job.flags.target_error > 0.0 ? Json(job.flags.target_error) : Json();
     json["sampler"] = job.is_reference() ? Json(word_for(job.flags.sampler, samplers)) : Json();
     json["seed"] = job.is_reference() ? Json(job.flags.seed) : Json();
     json["lookup"] = job.is_reference() ? Json(word_for(job.flags.lookup, lookups)) : Json();
@@ -62,7 +63,7 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
     const smx_render_report &report = rendered.rendering.report;
     Facts facts = {{"material", rendered.name}};
     facts.emplace_back("integrator", job.is_reference()
-                                         ? "reference, samples per pixel: " + std::to_string(job.flags.spp)
+                                         ? "reference, samples per pixel: " + std::to_string(report.spp)
                                          : std::string("filtered, ") + word_for(rendered.model, models) +
                                                ", lobes: " + std::to_string(rendered.lobes));
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));

@@ -20,6 +20,7 @@ smx_render_options render_options(const RenderFlags &flags) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
     options.sampler = flags.sampler;
     options.spp = flags.spp;
+    options.target_error = flags.target_error;
     options.seed = flags.seed;
     options.lookup = flags.lookup;
     return options;

@@ -23,7 +23,7 @@ SheetPlan plan_of(const SheetJob &job) {
 }
 
 void require_legal_usage(const SheetJob &job) {
-    require_legal_spp(job.flags);
+    require_legal_sampling(job.flags);
     if (is_material_file(job.input))
         throw CLI::ValidationError("INPUT",
                                    "the sheet needs a measured table, and '" + job.input + "' is a material file");

@@ -30,7 +30,7 @@ struct SheetEntry {
     SheetImage image;
     std::filesystem::path file; // where it is before the sheet is complete
     std::string model;          // of filtered images; else empty
-    double seconds;
+    smx_render_report report;
     std::optional<smx_comparison> errors; // of filtered images
 };
 

@@ -76,7 +76,7 @@ void draw_sheet(const SheetJob &job, const SheetPlan &plan, const SheetResult &r
     sheet.title = result.material.name;
     sheet.subtitle = "A measured material on displaced spheres: reference against N widened Beckmann lobes. " +
                      std::to_string(resolution.width) + " × " + std::to_string(resolution.height) + " pixels, " +
-                     std::to_string(job.flags.spp) + " samples per pixel in the references.";
+                     "references of " + sampling_text(job.flags) + ".";
     sheet.groups = column_groups(plan);
     sheet.tables = tables(plan);
     sheet.notes = {

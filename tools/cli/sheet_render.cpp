@@ -111,7 +111,7 @@ class SheetRenderer {
         const std::filesystem::path file = files_.write(job_.image_file(image.id), [&](const auto &temporary) {
             check(smx_image_write_exr(rendering.image.get(), temporary.c_str()));
         });
-        result_.entries.push_back({image, file, model, rendering.report.seconds, errors});
+        result_.entries.push_back({image, file, model, rendering.report, errors});
     }
 
     smx_scene scene_of(const SheetImage &image) const {

@@ -60,7 +60,7 @@ const char *integrator_of(Role role) {
     return "unknown";
 }
 
-Json image_json(const SheetJob &job, const SheetEntry &entry) {
+Json image_json(const SheetEntry &entry) {
     const SheetImage &image = entry.image;
     const bool filtered = image.role == Role::filtered;
     Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
@@ -69,8 +69,10 @@ Json image_json(const SheetJob &job, const SheetEntry &entry) {
     json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
     json["lobes"] = filtered ? Json(image.lobes) : Json();
     json["model"] = filtered ? Json(entry.model) : Json();
-    json["spp"] = image.role == Role::reference ? Json(job.flags.spp) : Json();
-    json["seconds"] = entry.seconds;
+    const bool reference = image.role == Role::reference;
+    json["spp"] = reference ? Json(entry.report.spp) : Json();
+    json["standard_error"] = reference && entry.report.standard_error >= 0.0 ? Json(entry.report.standard_error) : Json();
+    json["seconds"] = entry.report.seconds;
     if (entry.errors) {
         json["relrmse"] = entry.errors->relrmse;
         json["max_error"] = entry.errors->max_error;
@@ -108,7 +110,8 @@ Json settings_json(const SheetJob &job, const SheetResult &result) {
             {"resolution", {flags.resolution.width, flags.resolution.height}},
             {"radii", job.radii},
             {"lobes", job.lobes},
-            {"spp", flags.spp},
+            {"spp", flags.target_error > 0.0 ? Json() : Json(flags.spp)},
+            {"target_error", flags.target_error > 0.0 ? Json(flags.target_error) : Json()},
             {"sampler", word_for(flags.sampler, samplers)},
             {"seed", flags.seed},
             {"lookup", word_for(flags.lookup, lookups)},
@@ -139,14 +142,14 @@ std::string sheet_json(const SheetJob &job, const SheetResult &result) {
     document["summary"] = summary_json(job, result);
     document["exposures"] = exposures_json(result);
     document["images"] = Json::array();
-    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(job, entry));
+    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(entry));
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 void print_summary(const SheetJob &job, const SheetResult &result) {
     const RenderFlags &flags = job.flags;
     std::cout << result.material.name << ": " << result.entries.size() << " images of " << flags.resolution.width
-              << " x " << flags.resolution.height << ", references of " << flags.spp << " samples per pixel, in "
+              << " x " << flags.resolution.height << ", references of " << sampling_text(flags) << ", in "
               << job.out << "\n\n";
 
     std::vector<TextRow> rows = {{"N", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};

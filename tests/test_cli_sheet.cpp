@@ -1,0 +1,136 @@
+// slopemix sheet: 90 images, the contact sheet and sheet.json with the fields that are promised.
+#include <gtest/gtest.h>
+
+#include <png.h>
+
+#include <cstring>
+#include <set>
+
+#include "cli.h"
+#include "close.h"
+#include "files.h"
+#include "support.h"
+
+using nlohmann::json;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments sheet(const std::string &out) {
+    return {"sheet", "builtin:two-layer", "--out", out, "--res", "16", "--spp", "16"};
+}
+
+test::Image read(const std::string &path) {
+    test::Image image;
+    EXPECT_SMX_OK(smx_image_read_exr(path.c_str(), image.out()));
+    return image;
+}
+
+// What the page of the experiment says of table t, row r, column c.
+void expect_documented(const json &image, int t, int r, int c) {
+    const double radius = (const double[]){0.1, 0.25, 0.5}[r - 1];
+    EXPECT_EQ(image.at("column"), c);
+    EXPECT_EQ(image.at("alpha_x").get<double>(), t == 3 ? 0.0 : radius);
+    EXPECT_EQ(image.at("alpha_y").get<double>(), t == 2 ? 0.0 : radius);
+    EXPECT_TRUE(image.at("seconds").is_number());
+    const int kind = c == 1 ? -1 : (c - 2) % 3;
+    EXPECT_EQ(image.at("integrator"), kind < 0 ? "geometry" : kind == 0 ? "reference" : "filtered");
+    if (kind >= 0) {
+        EXPECT_EQ(image.at("light_phi_deg").get<double>(), ((const double[]){90.0, 0.0, -25.0}[(c - 2) / 3]));
+    }
+    if (kind == 0) {
+        EXPECT_EQ(image.at("spp"), 16);
+    }
+    if (kind > 0) {
+        EXPECT_EQ(image.at("lobes"), kind == 1 ? 1 : 8);
+        EXPECT_TRUE(image.at("model").is_string());
+        for (const char *error : {"relrmse", "max_error", "bias"}) EXPECT_GT(image.at(error).get<double>(), 0.0) << error;
+    }
+}
+
+std::vector<std::string> all_files() {
+    std::set<std::string> names{"sheet.json", "sheet.png"};
+    for (int t = 1; t <= 3; ++t)
+        for (int r = 1; r <= 3; ++r)
+            for (int c = 1; c <= 10; ++c)
+                names.insert(std::to_string(t) + "." + std::to_string(r) + "." + std::to_string(c) + ".exr");
+    return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+TEST(CliSheet, NinetyImagesAndWhatTheyAre) {
+    const test::TempDir dir;
+    ASSERT_CLI_OK(test::cli(sheet(dir.path())));
+    EXPECT_EQ(dir.names(), all_files());
+    const json document = json::parse(test::read_file(dir / "sheet.json"));
+    EXPECT_EQ(document.at("material"), "two-layer");
+    ASSERT_EQ(document.at("images").size(), 90u);
+    std::set<std::string> ids;
+    for (const json &image : document.at("images")) {
+        const std::string id = image.at("id");
+        ids.insert(id);
+        int t = 0, r = 0, c = 0;
+        ASSERT_EQ(std::sscanf(id.c_str(), "%d.%d.%d", &t, &r, &c), 3);
+        SCOPED_TRACE(id);
+        expect_documented(image, t, r, c);
+        test::pixels(read(dir / (id + ".exr")));
+    }
+    EXPECT_EQ(ids.size(), 90u);
+}
+
+// The errors in sheet.json are those of the images beside it.
+TEST(CliSheet, ErrorsAreThoseOfTheImages) {
+    const test::TempDir dir;
+    ASSERT_CLI_OK(test::cli(test::with(sheet(dir.path()), {"--only", "1.2.5,1.2.6,1.2.7"})));
+    EXPECT_EQ(dir.names(), (Arguments{"1.2.5.exr", "1.2.6.exr", "1.2.7.exr", "sheet.json", "sheet.png"}));
+    const json document = json::parse(test::read_file(dir / "sheet.json"));
+    ASSERT_EQ(document.at("images").size(), 3u);
+    for (const json &image : document.at("images")) {
+        if (image.at("integrator") != "filtered") continue;
+        smx_comparison wanted = SMX_COMPARISON_INIT;
+        ASSERT_SMX_OK(smx_image_compare(read(dir / (image.at("id").get<std::string>() + ".exr")), read(dir / "1.2.5.exr"),
+                                        &wanted));
+        EXPECT_CLOSE(image.at("relrmse").get<double>(), wanted.relrmse, 1e-6, 0.0);
+        EXPECT_CLOSE(image.at("max_error").get<double>(), wanted.max_error, 1e-6, 0.0);
+        EXPECT_CLOSE(image.at("bias").get<double>(), wanted.bias, 1e-6, 0.0);
+    }
+}
+
+TEST(CliSheet, ContactSheetIsAPicture) {
+    const test::TempDir dir;
+    ASSERT_CLI_OK(test::cli(test::with(sheet(dir.path()), {"--only", "1.1.1,1.1.2"})));
+    png_image png;
+    std::memset(&png, 0, sizeof png);
+    png.version = PNG_IMAGE_VERSION;
+    ASSERT_NE(png_image_begin_read_from_file(&png, (dir / "sheet.png").c_str()), 0) << png.message;
+    EXPECT_GT(png.width, 32u);
+    EXPECT_GT(png.height, 16u);
+    png_image_free(&png);
+}
+
+TEST(CliSheet, RadiiAndLobesAreTheCallers) {
+    const test::TempDir dir;
+    const Arguments chosen{"--radii", "0.3", "--lobes", "2", "--only", "2.1.3,3.1.1"};
+    const test::CliResult run = test::cli(test::with(sheet(dir.path()), test::with(chosen, {"--json"})));
+    ASSERT_CLI_OK(run);
+    const json images = run.json().at("images");
+    ASSERT_EQ(images.size(), 2u);
+    EXPECT_EQ(images[0].at("alpha_x").get<double>(), 0.3);
+    EXPECT_EQ(images[0].at("alpha_y").get<double>(), 0.0);
+    EXPECT_EQ(images[0].at("lobes"), 2);
+    EXPECT_GT(images[0].at("relrmse").get<double>(), 0.0);  // against a reference that is not kept
+    EXPECT_EQ(run.json(), json::parse(test::read_file(dir / "sheet.json")));
+}
+
+TEST(CliSheet, FailuresKeepWhatWasThere) {
+    const test::TempDir dir;
+    test::write_file(dir / "sheet.json", "precious");
+    EXPECT_CLI_FAILS(1, "no-such.binary", test::with({"sheet", "no-such.binary", "--out", dir.path()}, {}));
+    const test::CliSetting no_device{{{"OCL_ICD_VENDORS", dir / "no-vendors"}}, 0};
+    EXPECT_CLI_FAILS(1, "no OpenCL device", sheet(dir.path()), no_device);
+    EXPECT_CLI_FAILS(1, "sheet.json", sheet(dir / "sheet.json"));
+    EXPECT_EQ(test::read_file(dir / "sheet.json"), "precious");
+    EXPECT_EQ(dir.names(), Arguments{"sheet.json"});
+}
