@@ -41,8 +41,9 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
         ->type_name("N");
     add_choice(command, "--sampler", flags.sampler, samplers, "Sampler of the reference (default grid)");
     const auto parse_error = [](const std::string &text) { return parse_number(text, target_error_range); };
-    add_parsed(command, "--target-error", flags.target_error, parse_error,
-               "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E")
+    add_parsed(
+        command, "--target-error", flags.target_error, parse_error,
+        "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E")
         ->type_name("E");
     const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
     add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");

@@ -62,10 +62,9 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
 void print_text(const RenderJob &job, const Rendered &rendered) {
     const smx_render_report &report = rendered.rendering.report;
     Facts facts = {{"material", rendered.name}};
-    facts.emplace_back("integrator", job.is_reference()
-                                         ? "reference, samples per pixel: " + std::to_string(report.spp)
-                                         : std::string("filtered, ") + word_for(rendered.model, models) +
-                                               ", lobes: " + std::to_string(rendered.lobes));
+    facts.emplace_back("integrator", job.is_reference() ? "reference, samples per pixel: " + std::to_string(report.spp)
+                                                        : std::string("filtered, ") + word_for(rendered.model, models) +
+                                                              ", lobes: " + std::to_string(rendered.lobes));
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
     facts.emplace_back("device", rendered.device);
     facts.emplace_back("seconds", fixed(report.seconds, 3) + " (on the device " + fixed(report.kernel_seconds, 3) +

@@ -14,9 +14,11 @@ namespace slopemix::cli {
 
 namespace {
 
+constexpr Choice<bool> sheet_models[] = {{"shared", false}, {"both", true}};
+
 SheetPlan plan_of(const SheetJob &job) {
     try {
-        return SheetPlan(job.radii, job.lobes, job.only);
+        return SheetPlan(job.radii, job.lobes, job.with_per_lobe, job.only);
     } catch (const std::invalid_argument &error) {
         throw CLI::ValidationError("--only", error.what());
     }
@@ -73,6 +75,10 @@ void add_sheet(CLI::App &app) {
         ->type_name("R,...");
     add_parsed(*command, "--lobes", job->lobes, parse_lobes, "Numbers of lobes, a filtered image each (default 1,8)")
         ->type_name("N,...");
+    const auto parse_models = [](const std::string &text) { return parse_choice(text, sheet_models); };
+    add_parsed(*command, "--model", job->with_per_lobe, parse_models,
+               "both: also the per-lobe model with the last of --lobes, behind the other columns (default shared)")
+        ->type_name("shared|both");
     add_parsed(*command, "--only", job->only, parse_image_ids, "Only these images (default all)")
         ->type_name("T.R.C,...");
     add_render_flags(*command, job->flags);
@@ -80,7 +86,8 @@ void add_sheet(CLI::App &app) {
     command->footer(
         "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
         "Columns C: 1 the geometry, then for each light (90, 0, -25 degrees) the reference and one filtered image per\n"
-        "entry of --lobes. A filtered image that --only names without its reference is compared with DIR's, if that\n"
+        "entry of --lobes under the shared model; with --model both, then the per-lobe model for each light. A "
+        "filtered image that --only names without its reference is compared with DIR's, if that\n"
         "was made with the same settings, or else with one that is rendered for the purpose and not kept.");
     command->callback([job] { run(*job); });
 }

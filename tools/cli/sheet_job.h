@@ -19,6 +19,7 @@ struct SheetJob {
     RenderFlags flags;
     std::vector<double> radii = {0.1, 0.25, 0.5};
     std::vector<std::uint32_t> lobes = {1, 8};
+    bool with_per_lobe = false;
     std::vector<ImageId> only;
     bool json = false;
 
@@ -29,12 +30,12 @@ struct SheetJob {
 struct SheetEntry {
     SheetImage image;
     std::filesystem::path file; // where it is before the sheet is complete
-    std::string model;          // of filtered images; else empty
     smx_render_report report;
     std::optional<smx_comparison> errors; // of filtered images
 };
 
 struct SheetFit {
+    smx_model model;
     std::uint32_t lobes; // asked for
     smx_fit_report report;
 };

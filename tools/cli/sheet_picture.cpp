@@ -53,10 +53,14 @@ class SheetCells {
 std::vector<ContactSheet::Group> column_groups(const SheetPlan &plan) {
     std::vector<std::string> columns = {"reference"};
     for (const std::uint32_t lobes : plan.lobes()) columns.push_back("N = " + std::to_string(lobes));
-    return {{"", {"geometry"}},
-            {"light φ = 90° (at the camera)", columns},
-            {"light φ = 0° (right)", columns},
-            {"light φ = −25° (right, behind)", columns}};
+    std::vector<ContactSheet::Group> groups = {{"", {"geometry"}},
+                                               {"light φ = 90° (at the camera)", columns},
+                                               {"light φ = 0° (right)", columns},
+                                               {"light φ = −25° (right, behind)", columns}};
+    if (plan.with_per_lobe())
+        groups.push_back(
+            {"per-lobe model, N = " + std::to_string(plan.lobes().back()), {"φ = 90°", "φ = 0°", "φ = −25°"}});
+    return groups;
 }
 
 std::vector<ContactSheet::Table> tables(const SheetPlan &plan) {

@@ -15,8 +15,12 @@ std::pair<double, double> alphas(std::uint32_t table, double radius) {
 
 } // namespace
 
-SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, const std::vector<ImageId> &only)
-    : radii_(std::move(radii)), lobes_(std::move(lobes)), only_(only.begin(), only.end()) {
+SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, bool with_per_lobe,
+                     const std::vector<ImageId> &only)
+    : radii_(std::move(radii)),
+      lobes_(std::move(lobes)),
+      with_per_lobe_(with_per_lobe),
+      only_(only.begin(), only.end()) {
     for (const ImageId &id : only_)
         if (id.table > table_count || id.row > rows() || id.column > columns())
             throw std::invalid_argument("there is no image " + to_string(id) + ": this sheet has tables 1.." +
@@ -27,29 +31,41 @@ SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes
 SheetImage SheetPlan::image(ImageId id) const {
     const auto [alpha_x, alpha_y] = alphas(id.table, radii_[id.row - 1]);
     if (id.column == 1) return {id, Role::geometry, alpha_x, alpha_y, 0, 0};
+    if (id.column > shared_columns())
+        return {
+            id, Role::filtered, alpha_x, alpha_y, id.column - shared_columns() - 1, lobes_.back(), SMX_MODEL_PER_LOBE};
     const std::uint32_t light = (id.column - 2) / per_light();
     const std::uint32_t position = (id.column - 2) % per_light();
     if (position == 0) return {id, Role::reference, alpha_x, alpha_y, light, 0};
     return {id, Role::filtered, alpha_x, alpha_y, light, lobes_[position - 1]};
 }
 
+std::vector<ImageId> SheetPlan::filtered_under(const ImageId &reference, std::uint32_t light) const {
+    std::vector<ImageId> ids;
+    const auto add = [&](std::uint32_t column) {
+        const ImageId id = {reference.table, reference.row, column};
+        if (is_wanted(id)) ids.push_back(id);
+    };
+    for (std::uint32_t k = 1; k < per_light(); ++k) add(reference.column + k);
+    if (with_per_lobe_) add(shared_columns() + 1 + light);
+    return ids;
+}
+
 std::vector<SheetStep> SheetPlan::steps() const {
     std::vector<SheetStep> steps;
     for (std::uint32_t table = 1; table <= table_count; ++table)
-        for (std::uint32_t row = 1; row <= rows(); ++row)
-            for (std::uint32_t column = 1; column <= columns(); ++column) {
-                const SheetImage candidate = image({table, row, column});
-                const bool wanted = is_wanted(candidate.id);
-                if (wanted || (candidate.role == Role::reference && is_compared_with(candidate.id)))
-                    steps.push_back({candidate, wanted});
+        for (std::uint32_t row = 1; row <= rows(); ++row) {
+            const ImageId geometry = {table, row, 1};
+            if (is_wanted(geometry)) steps.push_back({image(geometry), true});
+            for (std::uint32_t light = 0; light < lights; ++light) {
+                const ImageId reference = {table, row, 2 + light * per_light()};
+                const std::vector<ImageId> filtered = filtered_under(reference, light);
+                const bool wanted = is_wanted(reference);
+                if (wanted || !filtered.empty()) steps.push_back({image(reference), wanted});
+                for (const ImageId &id : filtered) steps.push_back({image(id), true});
             }
+        }
     return steps;
-}
-
-bool SheetPlan::is_compared_with(const ImageId &reference) const {
-    for (std::uint32_t k = 1; k < per_light(); ++k)
-        if (is_wanted({reference.table, reference.row, reference.column + k})) return true;
-    return false;
 }
 
 } // namespace slopemix::cli

@@ -1,6 +1,7 @@
 // The sheet's images: which there are, what each shows, and in which order they are rendered. Three tables by the
 // direction of the roughness, a row per radius r, and the columns: geometry, then for each light the reference and
-// one filtered image per number of lobes.
+// one filtered image of the shared model per number of lobes; then, where asked for, the per-lobe model with the last
+// of these numbers, light by light.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "parse.h"
+#include "slopemix.h"
 
 namespace slopemix::cli {
 
@@ -23,7 +25,8 @@ struct SheetImage {
     Role role;
     double alpha_x, alpha_y;
     std::size_t light;   // index into light_degrees; not of geometry
-    std::uint32_t lobes; // asked for; of filtered images only
+    std::uint32_t lobes; // asked for; of filtered images only, as is the model
+    smx_model model = SMX_MODEL_SHARED;
 
     bool has_light() const { return role != Role::geometry; }
 };
@@ -36,25 +39,30 @@ struct SheetStep {
 class SheetPlan {
   public:
     // `only` empty: all images. Throws std::invalid_argument for an image that the sheet does not have.
-    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, const std::vector<ImageId> &only);
+    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, bool with_per_lobe,
+              const std::vector<ImageId> &only);
 
     const std::vector<double> &radii() const { return radii_; }
     const std::vector<std::uint32_t> &lobes() const { return lobes_; }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(radii_.size()); }
-    std::uint32_t columns() const { return 1 + static_cast<std::uint32_t>(light_degrees.size()) * per_light(); }
+    std::uint32_t columns() const { return shared_columns() + (with_per_lobe_ ? lights : 0); }
+    bool with_per_lobe() const { return with_per_lobe_; }
 
     SheetImage image(ImageId id) const;
 
-    // Table by table, row by row; a filtered image always comes after its reference.
+    // Table by table, row by row, light by light; a filtered image always comes after its reference.
     std::vector<SheetStep> steps() const;
 
   private:
+    static constexpr auto lights = static_cast<std::uint32_t>(light_degrees.size());
+    std::uint32_t shared_columns() const { return 1 + lights * per_light(); }
+    std::vector<ImageId> filtered_under(const ImageId &reference, std::uint32_t light) const;
     std::uint32_t per_light() const { return 1 + static_cast<std::uint32_t>(lobes_.size()); }
     bool is_wanted(const ImageId &id) const { return only_.empty() || only_.contains(id); }
-    bool is_compared_with(const ImageId &reference) const;
 
     std::vector<double> radii_;
     std::vector<std::uint32_t> lobes_;
+    bool with_per_lobe_;
     std::set<ImageId> only_;
 };
 

@@ -33,6 +33,8 @@ class SheetRenderer {
             process(step);
             progress_.finish();
         }
+        std::sort(result_.entries.begin(), result_.entries.end(),
+                  [](const SheetEntry &a, const SheetEntry &b) { return a.image.id < b.image.id; });
         return std::move(result_);
     }
 
@@ -55,12 +57,13 @@ class SheetRenderer {
     void fit_materials() {
         Density density;
         for (const SheetStep &step : steps_) {
-            const std::uint32_t lobes = step.image.lobes;
-            if (step.image.role != Role::filtered || materials_.contains(lobes)) continue;
-            progress_.start("fitting, N = " + std::to_string(lobes), 0.0);
+            const FitFlags flags = {step.image.model, step.image.lobes};
+            if (step.image.role != Role::filtered || materials_.contains(key_of(step.image))) continue;
+            progress_.start(
+                std::string("fitting, ") + word_for(flags.model, models) + ", N = " + std::to_string(flags.lobes), 0.0);
             if (!density) density = invert(brdf_);
-            const Material &material = materials_[lobes] = fit(density, {SMX_MODEL_SHARED, lobes});
-            result_.fits.push_back({lobes, report_of(material)});
+            const Material &material = materials_[key_of(step.image)] = fit(density, flags);
+            result_.fits.push_back({flags.model, flags.lobes, report_of(material)});
         }
     }
 
@@ -99,19 +102,18 @@ class SheetRenderer {
     }
 
     void process_filtered(const SheetStep &step) {
-        const Material &material = materials_.at(step.image.lobes);
+        const Material &material = materials_.at(key_of(step.image));
         const Rendering rendering = render_filtered(context_, material, scene_of(step.image), options());
         smx_comparison errors = SMX_COMPARISON_INIT;
         check(smx_image_compare(rendering.image.get(), reference_.get(), &errors));
-        keep(step.image, rendering, word_for(info_of(material).model, models), errors);
+        keep(step.image, rendering, errors);
     }
 
-    void keep(const SheetImage &image, const Rendering &rendering, const std::string &model = "",
-              std::optional<smx_comparison> errors = {}) {
+    void keep(const SheetImage &image, const Rendering &rendering, std::optional<smx_comparison> errors = {}) {
         const std::filesystem::path file = files_.write(job_.image_file(image.id), [&](const auto &temporary) {
             check(smx_image_write_exr(rendering.image.get(), temporary.c_str()));
         });
-        result_.entries.push_back({image, file, model, rendering.report, errors});
+        result_.entries.push_back({image, file, rendering.report, errors});
     }
 
     smx_scene scene_of(const SheetImage &image) const {
@@ -131,8 +133,11 @@ class SheetRenderer {
     Progress progress_;
     Context context_;
     Brdf brdf_;
-    std::map<std::uint32_t, Material> materials_; // by the number of lobes asked for
-    Image reference_;                             // of the row and light at hand
+    using FitKey = std::pair<smx_model, std::uint32_t>;
+    static FitKey key_of(const SheetImage &image) { return {image.model, image.lobes}; }
+
+    std::map<FitKey, Material> materials_; // by the number of lobes asked for
+    Image reference_;                      // of the row and light at hand
     SheetResult result_;
 };
 

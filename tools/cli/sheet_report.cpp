@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "exposure.h"
 #include "sheet_job.h"
@@ -16,18 +17,19 @@ using Json = nlohmann::ordered_json;
 
 constexpr int schema_version = 1;
 
-// The errors of all filtered images with one number of lobes.
-struct LobesSummary {
+// The errors of all filtered images of one fit.
+struct FitSummary {
+    smx_model model;
     std::uint32_t lobes;
     std::size_t images = 0;
     double mean_relrmse = 0.0, mean_bias = 0.0;
     const SheetEntry *worst = nullptr;
 };
 
-LobesSummary summarise(const std::vector<SheetEntry> &entries, std::uint32_t lobes) {
-    LobesSummary summary = {lobes};
+FitSummary summarise(const std::vector<SheetEntry> &entries, const SheetFit &fit) {
+    FitSummary summary = {fit.model, fit.lobes};
     for (const SheetEntry &entry : entries) {
-        if (!entry.errors || entry.image.lobes != lobes) continue;
+        if (!entry.errors || entry.image.lobes != fit.lobes || entry.image.model != fit.model) continue;
         ++summary.images;
         summary.mean_relrmse += entry.errors->relrmse;
         summary.mean_bias += entry.errors->bias;
@@ -39,12 +41,12 @@ LobesSummary summarise(const std::vector<SheetEntry> &entries, std::uint32_t lob
     return summary;
 }
 
-std::vector<LobesSummary> summaries(const SheetJob &job, const SheetResult &result) {
-    std::vector<LobesSummary> all;
-    for (const std::uint32_t lobes : job.lobes) {
-        const LobesSummary summary = summarise(result.entries, lobes);
-        if (summary.images > 0) all.push_back(summary);
-    }
+std::vector<FitSummary> summaries(const SheetResult &result) {
+    std::vector<FitSummary> all;
+    for (const SheetFit &fit : result.fits) all.push_back(summarise(result.entries, fit));
+    std::sort(all.begin(), all.end(), [](const FitSummary &a, const FitSummary &b) {
+        return std::pair(a.model, a.lobes) < std::pair(b.model, b.lobes);
+    });
     return all;
 }
 
@@ -68,10 +70,11 @@ Json image_json(const SheetEntry &entry) {
     json["alpha_y"] = image.alpha_y;
     json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
     json["lobes"] = filtered ? Json(image.lobes) : Json();
-    json["model"] = filtered ? Json(entry.model) : Json();
+    json["model"] = filtered ? Json(word_for(image.model, models)) : Json();
     const bool reference = image.role == Role::reference;
     json["spp"] = reference ? Json(entry.report.spp) : Json();
-    json["standard_error"] = reference && entry.report.standard_error >= 0.0 ? Json(entry.report.standard_error) : Json();
+    json["standard_error"] =
+        reference && entry.report.standard_error >= 0.0 ? Json(entry.report.standard_error) : Json();
     json["seconds"] = entry.report.seconds;
     if (entry.errors) {
         json["relrmse"] = entry.errors->relrmse;
@@ -84,7 +87,8 @@ Json image_json(const SheetEntry &entry) {
 Json fits_json(const SheetResult &result) {
     Json fits = Json::array();
     for (const SheetFit &fit : result.fits)
-        fits.push_back({{"lobes", fit.lobes},
+        fits.push_back({{"model", word_for(fit.model, models)},
+                        {"lobes", fit.lobes},
                         {"fitted_lobes", fit.report.lobes},
                         {"log_likelihood", fit.report.log_likelihood},
                         {"residual", fit.report.residual},
@@ -92,10 +96,11 @@ Json fits_json(const SheetResult &result) {
     return fits;
 }
 
-Json summary_json(const SheetJob &job, const SheetResult &result) {
+Json summary_json(const SheetResult &result) {
     Json json = Json::array();
-    for (const LobesSummary &summary : summaries(job, result))
-        json.push_back({{"lobes", summary.lobes},
+    for (const FitSummary &summary : summaries(result))
+        json.push_back({{"model", word_for(summary.model, models)},
+                        {"lobes", summary.lobes},
                         {"images", summary.images},
                         {"mean_relrmse", summary.mean_relrmse},
                         {"mean_bias", summary.mean_bias},
@@ -139,7 +144,7 @@ std::string sheet_json(const SheetJob &job, const SheetResult &result) {
     document["reference_seconds"] = result.reference_seconds;
     document["seconds_per_reference_sample"] = result.seconds_per_reference_sample();
     document["fits"] = fits_json(result);
-    document["summary"] = summary_json(job, result);
+    document["summary"] = summary_json(result);
     document["exposures"] = exposures_json(result);
     document["images"] = Json::array();
     for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(entry));
@@ -149,14 +154,14 @@ std::string sheet_json(const SheetJob &job, const SheetResult &result) {
 void print_summary(const SheetJob &job, const SheetResult &result) {
     const RenderFlags &flags = job.flags;
     std::cout << result.material.name << ": " << result.entries.size() << " images of " << flags.resolution.width
-              << " x " << flags.resolution.height << ", references of " << sampling_text(flags) << ", in "
-              << job.out << "\n\n";
+              << " x " << flags.resolution.height << ", references of " << sampling_text(flags) << ", in " << job.out
+              << "\n\n";
 
-    std::vector<TextRow> rows = {{"N", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};
-    for (const LobesSummary &summary : summaries(job, result))
-        rows.push_back({std::to_string(summary.lobes), std::to_string(summary.images), fixed(summary.mean_relrmse, 4),
-                        fixed(summary.worst->errors->relrmse, 4), to_string(summary.worst->image.id),
-                        fixed(summary.mean_bias, 4)});
+    std::vector<TextRow> rows = {{"model", "N", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};
+    for (const FitSummary &summary : summaries(result))
+        rows.push_back({word_for(summary.model, models), std::to_string(summary.lobes), std::to_string(summary.images),
+                        fixed(summary.mean_relrmse, 4), fixed(summary.worst->errors->relrmse, 4),
+                        to_string(summary.worst->image.id), fixed(summary.mean_bias, 4)});
     if (rows.size() > 1) {
         print_table(std::cout, rows);
         std::cout << '\n';
