@@ -37,7 +37,7 @@ namespace {
     _exit(127);
 }
 
-}  // namespace
+} // namespace
 
 CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setting) {
     const TempDir dir;
@@ -62,4 +62,4 @@ std::vector<std::string> replaced(std::vector<std::string> base, const std::stri
     return base;
 }
 
-}  // namespace test
+} // namespace test

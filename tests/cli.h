@@ -10,7 +10,7 @@
 namespace test {
 
 struct CliResult {
-    int status = -1;  // exit status; -1 after a signal
+    int status = -1; // exit status; -1 after a signal
     std::string out, err;
 
     nlohmann::json json() const { return nlohmann::json::parse(out); }
@@ -18,7 +18,7 @@ struct CliResult {
 
 struct CliSetting {
     std::vector<std::pair<std::string, std::string>> environment;
-    std::size_t file_size_limit = 0;  // bytes; 0: none. Longer writes fail, for root too
+    std::size_t file_size_limit = 0; // bytes; 0: none. Longer writes fail, for root too
 };
 
 CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setting = {});
@@ -29,13 +29,13 @@ std::vector<std::string> with(std::vector<std::string> base, const std::vector<s
 // `base` with the value after `flag` replaced.
 std::vector<std::string> replaced(std::vector<std::string> base, const std::string &flag, const std::string &value);
 
-}  // namespace test
+} // namespace test
 
 // A run that must end with this exit status and say `needle` on standard error.
-#define EXPECT_CLI_FAILS(wanted_status, needle, ...)                                              \
-    do {                                                                                          \
-        const test::CliResult result = test::cli(__VA_ARGS__);                                    \
-        EXPECT_EQ(result.status, wanted_status) << result.err;                                    \
+#define EXPECT_CLI_FAILS(wanted_status, needle, ...)                                                           \
+    do {                                                                                                       \
+        const test::CliResult result = test::cli(__VA_ARGS__);                                                 \
+        EXPECT_EQ(result.status, wanted_status) << result.err;                                                 \
         EXPECT_NE(result.err.find(needle), std::string::npos) << "no \"" << needle << "\" in: " << result.err; \
     } while (false)
 

@@ -31,4 +31,4 @@ inline std::vector<double> mean_errors(smx_brdf brdf, const Experiment &e, const
     return means;
 }
 
-}  // namespace test
+} // namespace test

@@ -5,9 +5,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
-
-#include "files.h"
 
 namespace test {
 
@@ -16,18 +15,20 @@ namespace test {
 //   SLOPEMIX_PYTHON  a Python that has numpy
 inline std::string measured_table(const std::string &material) {
     const char *shared_variable = std::getenv("SLOPEMIX_SHARED"), *python = std::getenv("SLOPEMIX_PYTHON");
-    const std::string shared = shared_variable ? shared_variable : SLOPEMIX_SHARED_DEFAULT;
-    const std::string tool = shared + "/tools/expand_materials.py";
-    if (python == nullptr || !exists(tool)) return "";
-    const std::string folder = SLOPEMIX_TABLE_CACHE, table = folder + "/" + material + ".binary";
-    const std::string command =
-        "'" + std::string(python) + "' '" + tool + "' --out '" + folder + "' " + material + " > /dev/null";
-    if (!exists(table) && std::system(command.c_str()) != 0) return "";
-    return exists(table) ? table : "";
+    const std::filesystem::path shared = shared_variable ? shared_variable : SLOPEMIX_SHARED_DEFAULT;
+    const std::filesystem::path tool = shared / "tools/expand_materials.py", folder = SLOPEMIX_TABLE_CACHE;
+    if (python == nullptr || !std::filesystem::exists(tool)) return "";
+    const std::filesystem::path table = folder / (material + ".binary");
+    if (!std::filesystem::exists(table)) {
+        std::ostringstream command;
+        command << '\'' << python << "' " << tool << " --out " << folder << ' ' << material << " > /dev/null";
+        if (std::system(command.str().c_str()) != 0) return "";
+    }
+    return table.string();
 }
 
-}  // namespace test
+} // namespace test
 
-#define SKIP_WITHOUT(table)                                                                        \
-    if ((table).empty())                                                                           \
+#define SKIP_WITHOUT(table) \
+    if ((table).empty())    \
     GTEST_SKIP() << "needs the shared data and a Python with numpy (SLOPEMIX_SHARED, SLOPEMIX_PYTHON)"

@@ -114,6 +114,20 @@ static void check_options(void) {
     bad.spp = 4097 * 4097;
     INVALID("16785409", render(REFERENCE, &scene, &bad, &image, NULL));
     bad = good;
+    bad.sampler = SMX_SAMPLER_MIS;
+    bad.spp = 4095;
+    INVALID("4095", render(REFERENCE, &scene, &bad, &image, NULL));
+    for (k = 0; k < 4; ++k) {
+        static const double targets[] = {-0.1, 1.1, NAN, INFINITY};
+        bad = good;
+        bad.sampler = SMX_SAMPLER_SOBOL;
+        bad.target_error = targets[k];
+        INVALID("target_error", render(REFERENCE, &scene, &bad, &image, NULL));
+    }
+    bad = good;
+    bad.target_error = 0.01; /* the grid has no estimate to stop by */
+    INVALID("target_error", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad = good;
     bad.sampler = (smx_sampler)77;
     INVALID("sampler", render(REFERENCE, &scene, &bad, &image, NULL));
     bad = good;

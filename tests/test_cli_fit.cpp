@@ -13,7 +13,7 @@ namespace {
 // A whole file of the right length whose cells are all invalid.
 std::string invalid_table() { return test::merl_bytes({90, 90, 180}, std::vector<double>(3 * 90 * 90 * 180, -1.0)); }
 
-}  // namespace
+} // namespace
 
 TEST(CliFit, SynthWritesTheBuiltin) {
     const test::TempDir dir;
@@ -86,9 +86,11 @@ TEST(CliFit, BadTablesKeepWhatWasThere) {
     std::string nan_table = invalid_table();
     const double nan = std::nan("");
     std::memcpy(nan_table.data() + 12, &nan, 8);
-    const std::vector<std::pair<std::string, std::string>> bad{
-        {"", "0"}, {std::string(100, 'x'), "100"}, {invalid_table(), "valid"}, {nan_table, "nan"},
-        {invalid_table() + "x", "34992013"}};
+    const std::vector<std::pair<std::string, std::string>> bad{{"", "0"},
+                                                               {std::string(100, 'x'), "dimensions"},
+                                                               {invalid_table(), "valid"},
+                                                               {nan_table, "nan"},
+                                                               {invalid_table() + "x", "34992013"}};
     test::write_file(dir / "t.json", "precious");
     for (const auto &[bytes, needle] : bad) {
         test::write_file(dir / "t.binary", bytes);
@@ -111,7 +113,8 @@ TEST(CliFit, UnwritableOutputsFailWithoutATrace) {
     EXPECT_CLI_FAILS(1, "file", {"fit", "builtin:conductor", "--out", dir / "file"});
     EXPECT_CLI_FAILS(1, "file", {"synth", "builtin:conductor", "--out", dir / "file/x.binary"});
     EXPECT_CLI_FAILS(1, "conductor.json", {"fit", "builtin:conductor", "--out", dir.path()}, {{}, 64});
-    EXPECT_CLI_FAILS(1, "conductor.json", {"synth", "builtin:conductor", "--out", dir / "conductor.json"}, {{}, 1 << 20});
+    EXPECT_CLI_FAILS(1, "conductor.json", {"synth", "builtin:conductor", "--out", dir / "conductor.json"},
+                     {{}, 1 << 20});
     EXPECT_EQ(test::read_file(dir / "file"), "precious");
     EXPECT_EQ(test::read_file(dir / "conductor.json"), "precious");
     EXPECT_EQ(dir.names(), (std::vector<std::string>{"conductor.json", "file"}));

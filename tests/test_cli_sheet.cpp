@@ -27,9 +27,11 @@ test::Image read(const std::string &path) {
     return image;
 }
 
+constexpr std::array<double, 3> radii{0.1, 0.25, 0.5}, lights{90.0, 0.0, -25.0};
+
 // What the page of the experiment says of table t, row r, column c.
 void expect_documented(const json &image, int t, int r, int c) {
-    const double radius = (const double[]){0.1, 0.25, 0.5}[r - 1];
+    const double radius = radii[static_cast<std::size_t>(r - 1)];
     EXPECT_EQ(image.at("column"), c);
     EXPECT_EQ(image.at("alpha_x").get<double>(), t == 3 ? 0.0 : radius);
     EXPECT_EQ(image.at("alpha_y").get<double>(), t == 2 ? 0.0 : radius);
@@ -37,7 +39,7 @@ void expect_documented(const json &image, int t, int r, int c) {
     const int kind = c == 1 ? -1 : (c - 2) % 3;
     EXPECT_EQ(image.at("integrator"), kind < 0 ? "geometry" : kind == 0 ? "reference" : "filtered");
     if (kind >= 0) {
-        EXPECT_EQ(image.at("light_phi_deg").get<double>(), ((const double[]){90.0, 0.0, -25.0}[(c - 2) / 3]));
+        EXPECT_EQ(image.at("light_phi_deg").get<double>(), lights[static_cast<std::size_t>(c - 2) / 3]);
     }
     if (kind == 0) {
         EXPECT_EQ(image.at("spp"), 16);
@@ -45,7 +47,8 @@ void expect_documented(const json &image, int t, int r, int c) {
     if (kind > 0) {
         EXPECT_EQ(image.at("lobes"), kind == 1 ? 1 : 8);
         EXPECT_TRUE(image.at("model").is_string());
-        for (const char *error : {"relrmse", "max_error", "bias"}) EXPECT_GT(image.at(error).get<double>(), 0.0) << error;
+        for (const char *error : {"relrmse", "max_error", "bias"})
+            EXPECT_GT(image.at(error).get<double>(), 0.0) << error;
     }
 }
 
@@ -58,7 +61,7 @@ std::vector<std::string> all_files() {
     return {names.begin(), names.end()};
 }
 
-}  // namespace
+} // namespace
 
 TEST(CliSheet, NinetyImagesAndWhatTheyAre) {
     const test::TempDir dir;
@@ -90,8 +93,8 @@ TEST(CliSheet, ErrorsAreThoseOfTheImages) {
     for (const json &image : document.at("images")) {
         if (image.at("integrator") != "filtered") continue;
         smx_comparison wanted = SMX_COMPARISON_INIT;
-        ASSERT_SMX_OK(smx_image_compare(read(dir / (image.at("id").get<std::string>() + ".exr")), read(dir / "1.2.5.exr"),
-                                        &wanted));
+        ASSERT_SMX_OK(smx_image_compare(read(dir / (image.at("id").get<std::string>() + ".exr")),
+                                        read(dir / "1.2.5.exr"), &wanted));
         EXPECT_CLOSE(image.at("relrmse").get<double>(), wanted.relrmse, 1e-6, 0.0);
         EXPECT_CLOSE(image.at("max_error").get<double>(), wanted.max_error, 1e-6, 0.0);
         EXPECT_CLOSE(image.at("bias").get<double>(), wanted.bias, 1e-6, 0.0);
@@ -120,7 +123,7 @@ TEST(CliSheet, RadiiAndLobesAreTheCallers) {
     EXPECT_EQ(images[0].at("alpha_x").get<double>(), 0.3);
     EXPECT_EQ(images[0].at("alpha_y").get<double>(), 0.0);
     EXPECT_EQ(images[0].at("lobes"), 2);
-    EXPECT_GT(images[0].at("relrmse").get<double>(), 0.0);  // against a reference that is not kept
+    EXPECT_GT(images[0].at("relrmse").get<double>(), 0.0); // against a reference that is not kept
     EXPECT_EQ(run.json(), json::parse(test::read_file(dir / "sheet.json")));
 }
 

@@ -12,18 +12,27 @@ using Arguments = std::vector<std::string>;
 const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "compare"};
 
 Arguments render(const std::string &out) {
-    return {"render",    "builtin:conductor", "--integrator", "reference", "--alpha", "0.1,0.1", "--rho",        "0",
-            "--light",   "90",                "--res",        "8",         "--spp",   "16",      "--mean-slope", "0,0",
-            "--sampler", "grid",              "--seed",       "0",         "--g",     "correlated", "--lookup",  "linear",
-            "--out",     out};
+    return {"render",       "builtin:conductor",
+            "--integrator", "reference",
+            "--alpha",      "0.1,0.1",
+            "--rho",        "0",
+            "--light",      "90",
+            "--res",        "8",
+            "--spp",        "16",
+            "--mean-slope", "0,0",
+            "--sampler",    "grid",
+            "--seed",       "0",
+            "--g",          "correlated",
+            "--lookup",     "linear",
+            "--out",        out};
 }
 
 Arguments sheet(const std::string &out) {
-    return {"sheet", "builtin:conductor", "--res", "8", "--spp", "16", "--radii", "0.1", "--lobes", "1", "--only", "1.1.1",
-            "--out", out};
+    return {"sheet", "builtin:conductor", "--res", "8",      "--spp", "16",    "--radii",
+            "0.1",   "--lobes",           "1",     "--only", "1.1.1", "--out", out};
 }
 
-}  // namespace
+} // namespace
 
 TEST(CliUsage, EveryCommandHasHelp) {
     for (const char *command : commands) {
@@ -47,7 +56,8 @@ TEST(CliUsage, WrongUsageIsTwo) {
     EXPECT_CLI_FAILS(2, "", Arguments{});
     EXPECT_CLI_FAILS(2, "frobnicate", Arguments{"frobnicate"});
     EXPECT_CLI_FAILS(2, "--frobnicate", Arguments{"info", "--frobnicate"});
-    for (const char *command : {"synth", "fit", "render", "sheet", "compare"}) EXPECT_CLI_FAILS(2, "", Arguments{command});
+    for (const char *command : {"synth", "fit", "render", "sheet", "compare"})
+        EXPECT_CLI_FAILS(2, "", Arguments{command});
     EXPECT_CLI_FAILS(2, "--out", Arguments{"fit", "builtin:conductor"});
     EXPECT_CLI_FAILS(2, "two-layer.binary", Arguments{"synth", "two-layer.binary", "--out", "x.binary"});
 }

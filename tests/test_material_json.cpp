@@ -105,10 +105,16 @@ std::vector<json::json_pointer> pointers(const json &document) {
     return all;
 }
 
-// The nearest key on the way to a value: what the message must name.
-std::string key_of(json::json_pointer at) {
-    while (!at.empty() && at.back().find_first_not_of("0123456789") == std::string::npos) at.pop_back();
-    return at.empty() ? std::string() : at.back();
+// The path as messages have it: $.lobes[0].alpha
+std::string path_of(json::json_pointer at) {
+    std::vector<std::string> steps;
+    for (; !at.empty(); at.pop_back()) steps.push_back(at.back());
+    std::string path = "$";
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+        const bool index = step->find_first_not_of("0123456789") == std::string::npos;
+        path += index ? "[" + *step + "]" : "." + *step;
+    }
+    return path;
 }
 
 void check_every_key_must_be_there(const json &document) {
@@ -116,7 +122,7 @@ void check_every_key_must_be_there(const json &document) {
         if (!document.at(at.parent_pointer()).is_object()) continue;
         json without = document;
         without.at(at.parent_pointer()).erase(at.back());
-        expect_refused(without.dump(), key_of(at));
+        expect_refused(without.dump(), path_of(at));
     }
 }
 
@@ -127,7 +133,7 @@ void check_every_value_has_its_type(const json &document) {
             if (wrong.type() == right.type() || (wrong.is_number() && right.is_number())) continue;
             json changed = document;
             changed.at(at) = wrong;
-            expect_refused(changed.dump(), key_of(at));
+            expect_refused(changed.dump(), path_of(at));
         }
 }
 
@@ -138,8 +144,7 @@ void check_unknown_keys_are_refused(const json &document) {
     for (const json::json_pointer &at : objects) {
         json changed = document;
         changed.at(at)["surplus"] = 1;
-        expect_refused(changed.dump(), "surplus");
-        if (!key_of(at).empty()) expect_refused(changed.dump(), key_of(at));
+        expect_refused(changed.dump(), path_of(at / "surplus"));
     }
 }
 
@@ -198,11 +203,12 @@ TEST(MaterialJson, ValuesHaveTheirRanges) {
         copy.at(json::json_pointer(pointer)) = value;
         return copy.dump();
     };
-    for (const double alpha : {-0.1, 0.0, 0.99e-4, 1.01e4}) expect_refused(changed("/lobes/0/alpha", alpha), "alpha");
-    for (const double weight : {-0.1, 0.0}) expect_refused(changed("/lobes/0/weight", weight), "weight");
-    expect_refused(changed("/lobes", json::array()), "lobes");
-    expect_refused(changed("/lobes", json(65, document["lobes"][0])), "lobes");
-    expect_refused(changed("/model", "glossy"), "model");
+    for (const double alpha : {-0.1, 0.0, 0.99e-4, 1.01e4})
+        expect_refused(changed("/lobes/0/alpha", alpha), "$.lobes[0].alpha");
+    for (const double weight : {-0.1, 0.0}) expect_refused(changed("/lobes/0/weight", weight), "$.lobes[0].weight");
+    expect_refused(changed("/lobes", json::array()), "$.lobes");
+    expect_refused(changed("/lobes", json(65, document["lobes"][0])), "$.lobes");
+    expect_refused(changed("/model", "glossy"), "$.model");
 }
 
 TEST(MaterialJson, TextThatIsNoJsonIsRefused) {

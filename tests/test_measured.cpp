@@ -13,7 +13,7 @@ TEST(Measured, EightLobesBeatOne) {
     small.displacements = {{0.1, 0.1, 0.0, 0.0, 0.0}, {0.25, 0.0, 0.0, 0.0, 0.0}, {0.0, 0.5, 0.0, 0.0, 0.0}};
     const std::vector<double> errors = test::mean_errors(brdf, small, {1, 8}, SMX_MODEL_SHARED);
     EXPECT_LT(errors[1], 0.5 * errors[0]);
-    EXPECT_LT(errors[1], 0.25);  // the whole sheet's mean is about 0.1, one lobe's about 0.6
+    EXPECT_LT(errors[1], 0.25); // the whole sheet's mean is about 0.1, one lobe's about 0.6
 }
 
 TEST(Measured, HolesOfMeasurementsAreBelowTheHorizon) {
