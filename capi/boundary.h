@@ -1,6 +1,7 @@
 // The boundary between C and C++: handles, the one catch, and the checks of arguments that only C can get wrong.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <memory>

@@ -1,15 +1,15 @@
 // The handles of slopemix.h.
 #pragma once
 
-#include <mutex>
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "boundary.h"
 #include "brdf.h"
 #include "context.h"
-#include "fit_material.h"
 #include "image.h"
 #include "material.h"
+#include "proposal.h"
 
 namespace smx {
 
@@ -24,21 +24,9 @@ struct smx_context_s : smx::Handle<smx::Context> {
     using Handle::Handle;
 };
 struct smx_brdf_s : smx::Handle<const smx::Brdf> {
-    using Handle::Handle;
-
-    // The mixture that the reference's sampler mis draws from, fitted on first use.
-    const std::vector<smx::Lobe> &proposal() {
-        std::call_once(proposal_made_, [&] {
-            smx::FitOptions options;
-            options.model = smx::Model::Shared;
-            proposal_ = smx::fit_material(*object, smx::invert(*object, {}), options).lobes;
-        });
-        return proposal_;
-    }
-
-  private:
-    std::once_flag proposal_made_;
-    std::vector<smx::Lobe> proposal_;
+    explicit smx_brdf_s(std::shared_ptr<const smx::Brdf> brdf)
+        : Handle(brdf), proposal(std::make_shared<smx::Proposal>(std::move(brdf))) {}
+    std::shared_ptr<smx::Proposal> proposal;
 };
 struct smx_density_s : smx::Handle<const smx::DensityOfBrdf> {
     using Handle::Handle;

@@ -51,18 +51,22 @@ extern "C" {
 
 smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                const smx_render_options *options, smx_image *image, smx_render_report *report) {
-    return render(
-        context, material, "material", scene, options, image, report,
-        [&](Context &c, const Scene &s, const RenderOptions &o) { return shade_filtered(c, *material->object, s, o); });
+    return render(context, material, "material", scene, options, image, report,
+                  [&](Context &c, const Scene &s, const RenderOptions &o) {
+                      const auto kept = material->object;
+                      return shade_filtered(c, *kept, s, o);
+                  });
 }
 
 smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
                                 const smx_render_options *options, smx_image *image, smx_render_report *report) {
-    return render(
-        context, brdf, "brdf", scene, options, image, report, [&](Context &c, const Scene &s, const RenderOptions &o) {
-            const bool sharp = o.sampler == Sampler::Mis;
-            return integrate_reference(c, *brdf->object, sharp ? brdf->proposal() : std::vector<Lobe>{}, s, o);
-        });
+    return render(context, brdf, "brdf", scene, options, image, report,
+                  [&](Context &c, const Scene &s, const RenderOptions &o) {
+                      const auto kept = brdf->object;
+                      const auto proposal = brdf->proposal;
+                      return integrate_reference(
+                          c, *kept, [&]() -> const std::vector<Lobe> & { return proposal->lobes(); }, s, o);
+                  });
 }
 
 smx_status smx_render_geometry(smx_context context, const smx_scene *scene, const smx_render_options *options,

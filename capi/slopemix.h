@@ -21,6 +21,7 @@
  *
  * Options are structs that start with their own size: initialise with the macro of the same name in capitals
  * (smx_scene s = SMX_SCENE_INIT;), change fields, pass the address. NULL in place of options means the defaults.
+ * The size must be that of this version's struct; a later version that adds fields takes this one's too.
  */
 #ifndef SLOPEMIX_H
 #define SLOPEMIX_H
@@ -70,7 +71,8 @@ SMX_API const char *smx_last_error(void);
 SMX_API const char *smx_version(void);
 
 /* Called now and then with the share done, 0..1, from the thread that made the call; nonzero stops the work, and the
- * call returns SMX_CANCELLED. */
+ * call returns SMX_CANCELLED. It starts again from 0 where a target_error needs more samples. The callback may not
+ * render or evaluate on the same context: such a call returns SMX_INVALID_ARGUMENT. */
 typedef int (*smx_progress_fn)(void *user, double share);
 
 /* ------------------------------------------------------------------------------------------------ context and devices */
@@ -102,8 +104,8 @@ SMX_API smx_status smx_device_get_info(uint32_t index, smx_device_info *info);
 typedef struct smx_context_options {
     size_t size;
     const char *device;    /* NULL: first CPU, else first device; digits: an index; else part of a name, any case */
-    void *cl_context;      /* the caller's cl_context and cl_command_queue, both or neither; retained, and `device` */
-    void *cl_queue;        /*   must then be NULL */
+    void *cl_context;      /* the caller's cl_context and cl_command_queue, both or neither; retained; the queue */
+    void *cl_queue;        /*   must be in order; `device` must be NULL */
     uint32_t vector_width; /* 0: from the device; else 1, 4, 8 or 16 evaluations per work-item */
 } smx_context_options;
 #define SMX_CONTEXT_OPTIONS_INIT \
@@ -130,7 +132,7 @@ typedef struct smx_brdf_s *smx_brdf;
 typedef struct smx_brdf_info {
     size_t size;
     char name[128];   /* file name without its ending, or the built-in's name */
-    char source[512]; /* path, or "builtin:NAME" */
+    char source[512]; /* path, "builtin:NAME", or "memory" */
     char sha256[65];  /* of the table's bytes as stored in a file, in hexadecimal */
     uint32_t theta_h, theta_d, phi_d;
     uint64_t cells;         /* theta_h * theta_d * phi_d */
@@ -239,7 +241,7 @@ typedef struct smx_fit_report {
     uint32_t em_iterations;
     uint32_t refine_iterations;
     double log_likelihood_em;   /* mean of log p22 of the mixture under the slope density, per unit mass */
-    double log_likelihood;      /* the same after the refinement */
+    double log_likelihood;      /* the same after the refinement; per-lobe: of the mixture it began with */
     double residual_em;         /* Hellinger distance of density and mixture, 0..1 */
     double residual;            /* the same after the refinement */
     char refine_message[256];   /* the solver's verdict; "" without refinement */
@@ -295,7 +297,8 @@ SMX_API smx_status smx_material_retain(smx_material material);
 SMX_API void smx_material_release(smx_material material);
 SMX_API smx_status smx_material_get_info(smx_material material, smx_material_info *info);
 
-/* How the fit went; a material made from arrays has a report of zeros. Statuses: INVALID_ARGUMENT. */
+/* How the fit went; a material made from arrays has a report of zeros but for the number of lobes. Statuses:
+ * INVALID_ARGUMENT. */
 SMX_API smx_status smx_material_get_report(smx_material material, smx_fit_report *report);
 
 /* Copies the lobes; `count` must be info.lobes. Statuses: INVALID_ARGUMENT. */
@@ -352,7 +355,8 @@ typedef struct smx_render_options {
     uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid, even for mis */
     uint64_t seed;
     smx_lookup lookup;
-    double target_error; /* 0..1; above 0: as many samples, to 2^24, as bring the standard error below it, not spp */
+    double target_error; /* 0 <= target_error < 1; above 0: as many samples, to 2^24, as bring the standard error below
+                            it, not spp */
     smx_progress_fn progress; /* or NULL */
     void *progress_user;
 } smx_render_options;
@@ -379,7 +383,8 @@ typedef struct smx_image_s *smx_image;
 SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
 
-/* The statistical reference: the measured table integrated over X's facets. Same statuses. */
+/* The statistical reference: the measured table integrated over X's facets. The sampler mis fits the table's own
+ * mixture on its first use. Same statuses, and NO_SOLUTION (a table that mis cannot fit). */
 SMX_API smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
                                         const smx_render_options *options, smx_image *image, smx_render_report *report);
 
@@ -423,7 +428,7 @@ SMX_API smx_status smx_image_display(smx_image image, double exposure, uint8_t *
 /* The same as a PNG file. Statuses: INVALID_ARGUMENT, CANNOT_WRITE. */
 SMX_API smx_status smx_image_write_png(smx_image image, const char *path, double exposure);
 
-/* The q-quantile (0..1) of the R, G, B values of pixels with alpha > 0; 0 if there are none.
+/* The q-quantile (0..1) of the R, G, B values of pixels with alpha > 0, NaNs left out; 0 if there are none.
  * Statuses: INVALID_ARGUMENT. */
 SMX_API smx_status smx_image_quantile(smx_image image, double q, double *value);
 

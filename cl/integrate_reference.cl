@@ -8,9 +8,8 @@
 //
 // Build parameters
 //   W                lanes per work-item (vec.clh); default 1
-//   TECHNIQUE        0: facets of X alone, 1: facets of X, weighted by the balance heuristic, 2: facets of the base
-//   about
-//                    wh, weighted likewise; default 0
+//   TECHNIQUE        0: facets of X alone; 1: facets of X, weighted by the balance heuristic; 2: facets of the base's
+//                    mixture about wh, weighted likewise; default 0
 //   LOOKUP_NEAREST   0: linear, 1: nearest (table_slice.clh); default 0
 //   G2_SEPARABLE     0: height-correlated masking, 1: separable (masking.clh); default 0
 #include "beckmann.clh"

@@ -61,10 +61,10 @@ DirectionSample make_sample(const Brdf &brdf, std::size_t half, std::size_t d, s
     s.tan2 = std::tan(th) * std::tan(th);
     s.inv_cos4 = (1.0 + s.tan2) * (1.0 + s.tan2);
     for (std::size_t c = 0; c < 3; ++c) s.f[c] = (brdf.value(c, cell) + brdf.value(c, cell_next)) / 2;
-    // sin(theta) dtheta of theta = u^2 pi/2 is proportional to sin(theta) u; the pole's cell is a tenth of the next
-    // one's (the integral of a linear interpolant's half cell against the trapezoid rule).
+    // sin(theta) dtheta of theta = u^2 pi/2 is proportional to sin(theta) u; the pole's cell is a twentieth of
+    // the next one's (the integral of a linear interpolant's half cell against the trapezoid rule).
     const double first = 1.0 / (2.0 * Brdf::theta_h_count);
-    const double ring = half > 0 ? std::sin(th) * u : first * first * std::numbers::pi / 2 * first / 10;
+    const double ring = half > 0 ? std::sin(th) * u : first * first * std::numbers::pi / 2 * first / 20;
     s.weight = s.ci > 0.0 && s.co > 0.0 ? s.ci * std::sqrt(s.co * ring) : 0.0;
     return s;
 }
@@ -79,12 +79,12 @@ void normalise(DirectionLevel &level, double width) {
     for (const DirectionSample &s : level.samples)
         for (double f : s.f) sum += s.weight * s.weight * f * f;
     if (sum <= 0.0) return;
-    const double scale = std::sqrt(seen(level.theta_d) * width / sum);
-    for (DirectionSample &s : level.samples) s.weight *= scale;
+    level.norm = std::sqrt(seen(level.theta_d) * width);
+    for (DirectionSample &s : level.samples) s.weight *= level.norm / std::sqrt(sum);
 }
 
 DirectionLevel make_level(const Brdf &brdf, std::size_t d, double width) {
-    DirectionLevel level{Brdf::theta_d(d), {}};
+    DirectionLevel level{Brdf::theta_d(d), 0.0, {}};
     const std::size_t columns = brdf.phi_d_count(), stride = columns / phi_samples;
     std::vector<double> ceilings;
     for (std::size_t h = 0; h < Brdf::theta_h_count; ++h) ceilings.push_back(row_ceiling(brdf, h, d));

@@ -17,6 +17,7 @@ struct DirectionSample {
 
 struct DirectionLevel {
     double theta_d;
+    double norm; // root of the sum of squares of weight * f
     std::vector<DirectionSample> samples;
 };
 

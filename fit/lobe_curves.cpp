@@ -5,6 +5,7 @@
 
 #include "ceres_solver.h"
 #include "curve_basis.h"
+#include "error.h"
 #include "lobe_value.h"
 
 namespace smx {
@@ -19,6 +20,7 @@ using Eigen::VectorXd;
 struct NormalEquations {
     MatrixXd gram;
     std::array<VectorXd, 3> right;
+    VectorXd seen; // each lobe's sum of squares in the data
 };
 
 void add_level(NormalEquations &eq, const DirectionLevel &level, const std::vector<double> &alphas) {
@@ -30,6 +32,7 @@ void add_level(NormalEquations &eq, const DirectionLevel &level, const std::vect
         for (Eigen::Index k = 0; k < n; ++k)
             lobes[k] = s.weight * lobe_value(s, alphas[static_cast<std::size_t>(k)]).value;
         gram.selfadjointView<Eigen::Lower>().rankUpdate(lobes);
+        eq.seen += lobes.cwiseAbs2();
         for (std::size_t c = 0; c < 3; ++c) right[c] += lobes * (s.weight * s.f[c]);
     }
     gram = gram.selfadjointView<Eigen::Lower>();
@@ -47,8 +50,7 @@ void add_smoothness(NormalEquations &eq, Eigen::Index n) {
     constexpr auto count = static_cast<Eigen::Index>(curve_coefficients);
     constexpr double difference[3] = {1.0, -2.0, 1.0};
     for (Eigen::Index k = 0; k < n; ++k) {
-        double scale = 0.0;
-        for (Eigen::Index j = 0; j < count; ++j) scale += eq.gram(j * n + k, j * n + k) / static_cast<double>(count);
+        const double scale = eq.seen[k] / static_cast<double>(count);
         for (Eigen::Index j = 0; j + 2 < count; ++j)
             for (Eigen::Index a = 0; a < 3; ++a)
                 for (Eigen::Index b = 0; b < 3; ++b)
@@ -96,13 +98,15 @@ VectorXd solve_non_negative(const MatrixXd &upper, const VectorXd &y) {
 std::vector<CurveCoefficients> fit_curves(const std::vector<DirectionLevel> &levels,
                                           const std::vector<double> &alphas) {
     const auto n = static_cast<Eigen::Index>(alphas.size()), size = n * static_cast<Eigen::Index>(curve_coefficients);
-    NormalEquations eq{MatrixXd::Zero(size, size), {VectorXd::Zero(size), VectorXd::Zero(size), VectorXd::Zero(size)}};
+    const VectorXd zero = VectorXd::Zero(size);
+    NormalEquations eq{MatrixXd::Zero(size, size), {zero, zero, zero}, VectorXd::Zero(n)};
     for (const DirectionLevel &level : levels) add_level(eq, level, alphas);
     add_smoothness(eq, n);
     // A lobe that no sample sees has no curve of its own: the least that keeps the matrix definite draws it to 0.
     eq.gram.diagonal().array() += 1e-10 * eq.gram.trace() / static_cast<double>(size);
 
     const Eigen::LLT<MatrixXd> factor(eq.gram);
+    if (factor.info() != Eigen::Success) fail(Fault::NoSolution, "the lobes' curves are not determined by the table");
     const MatrixXd upper = factor.matrixU();
     std::vector<CurveCoefficients> curves(alphas.size());
     for (std::size_t c = 0; c < 3; ++c) {

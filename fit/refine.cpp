@@ -18,13 +18,13 @@ struct Deviance {
 
 Deviance deviance(double mass, double p22, double area, double log_mixture) {
     const double mixture_mass = area * std::exp(log_mixture);
-    const double x = log_mixture - (mass > 0.0 ? std::log(p22) : 0.0);
-    // Near the minimum the difference below cancels: x - 1 - log x in powers of log x = t is t^2/2 + t^3/6 + ...
-    if (mass > 0.0 && std::abs(x) < 1e-3) {
+    const double t = log_mixture - (mass > 0.0 ? std::log(p22) : 0.0);
+    // Near the minimum the difference below cancels: e^t - 1 - t = t^2 / 2 + t^3 / 6 + ...
+    if (mass > 0.0 && std::abs(t) < 1e-3) {
         const double root = std::sqrt(mass);
-        return {root * x * (1.0 + x / 6.0), root * (1.0 + x / 3.0)};
+        return {root * t * (1.0 + t / 6.0), root * (1.0 + t / 3.0)};
     }
-    const double half = mass > 0.0 ? mixture_mass - mass - mass * x : mixture_mass;
+    const double half = mass > 0.0 ? mixture_mass - mass - mass * t : mixture_mass;
     const double residual = std::copysign(std::sqrt(2.0 * std::max(half, 0.0)), mixture_mass - mass);
     return {residual, residual != 0.0 ? (mixture_mass - mass) / residual : 0.0};
 }
@@ -121,7 +121,7 @@ RefineResult refine(const std::vector<Lobe> &start, const SlopeDensity &density)
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    RefineResult result{start, static_cast<unsigned>(summary.iterations.size()), summary.message};
+    RefineResult result{start, static_cast<unsigned>(summary.num_successful_steps), summary.message};
     if (summary.IsSolutionUsable()) result.lobes = parameters.lobes();
     return result;
 }

@@ -48,11 +48,11 @@ struct Robust {
     double residual, derivative;
 };
 
-Robust robust(double r) {
-    const double x = r / cauchy_scale, x2 = x * x;
+Robust robust(double r, double scale) {
+    const double x = r / scale, x2 = x * x;
     if (x2 < 1e-8) return {r, 1.0}; // the quotient below is 0 / 0 at 0, and 1 - 3/4 x2 near it
     const double root = std::sqrt(std::log1p(x2));
-    return {std::copysign(cauchy_scale * root, r), std::abs(x) / (root * (1.0 + x2))};
+    return {std::copysign(scale * root, r), std::abs(x) / (root * (1.0 + x2))};
 }
 
 // One level and channel. Parameters: log alphas, then the lobes' three coefficients that make the curve at theta_d.
@@ -71,7 +71,8 @@ class LevelResiduals : public ceres::CostFunction {
             const LobeValue *lobes = cache_.at(index_, s);
             double model = 0.0;
             for (std::size_t k = 0; k < n; ++k) model += curve(p, k) * lobes[k].value;
-            const auto [residual, derivative] = robust(sample.weight * (model - sample.f[channel_]));
+            const auto [residual, derivative] =
+                robust(sample.weight * (model - sample.f[channel_]), cauchy_scale * level_.norm);
             residuals[s] = residual;
             if (!jacobians) continue;
             const double pull = derivative * sample.weight;
@@ -223,7 +224,7 @@ PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, con
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    PerLobeRefinement result{start, static_cast<unsigned>(summary.iterations.size()), summary.message};
+    PerLobeRefinement result{start, static_cast<unsigned>(summary.num_successful_steps), summary.message};
     if (summary.IsSolutionUsable()) result.fit = unknowns.fit();
     return result;
 }

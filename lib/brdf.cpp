@@ -9,6 +9,13 @@
 
 namespace smx {
 
+namespace {
+
+// Far above any reflection, far below where a float's sums would overflow.
+constexpr double max_value = 1e30;
+
+} // namespace
+
 Brdf::Brdf(std::string name, std::string source, std::string sha256, std::size_t phi_d_count,
            std::vector<double> values)
     : name_(std::move(name)),
@@ -26,6 +33,9 @@ void Brdf::find_valid_cells() {
     for (std::size_t at = 0; at < values_.size(); ++at) {
         if (!std::isfinite(values_[at]))
             fail(Fault::BadFormat, name_, ": value ", at, " of the table is ", values_[at], ", not a finite number");
+        if (values_[at] > max_value)
+            fail(Fault::BadFormat, name_, ": value ", at, " of the table is ", values_[at], "; the highest is ",
+                 max_value);
         if (values_[at] < 0.0) valid_[at % cells()] = false;
     }
     for (std::size_t h = 0; h < theta_h_count; ++h)

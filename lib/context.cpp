@@ -27,7 +27,16 @@ Context::Context(const std::string &wanted, std::uint32_t vector_width)
 Context::Context(const cl::Context &context, const cl::CommandQueue &queue, std::uint32_t vector_width)
     : device_(queue.getInfo<CL_QUEUE_DEVICE>()), context_(context), queue_(queue), info_(device_info(device_)) {
     require(queue.getInfo<CL_QUEUE_CONTEXT>()() == context(), "cl_queue belongs to another context than cl_context");
+    const bool in_order = !(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+    require(in_order, "cl_queue executes out of order; slopemix needs one that executes in order");
     info_.vector_width = chosen_width(vector_width, info_.vector_width);
+}
+
+Context::Lock::Lock(Context &context) : context_(context) {
+    require(context.owner_ != std::this_thread::get_id(),
+            "context is in use by the call that this callback belongs to");
+    lock_ = std::unique_lock(context.mutex_);
+    context.owner_ = std::this_thread::get_id();
 }
 
 cl::Program Context::build(const std::string &file, const std::string &options) {

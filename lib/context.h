@@ -2,9 +2,11 @@
 // options; PoCL keeps their binaries on disk itself.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "device.h"
 #include "opencl.h"
@@ -31,8 +33,19 @@ class Context {
     const cl::CommandQueue &queue() const { return queue_; }
     double build_seconds() const { return build_seconds_; } // of all builds so far
 
-    // Calls on one context run one after another.
-    std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
+    // Calls on one context run one after another. Throws InvalidArgument where this thread is in such a call already:
+    // in its progress callback.
+    class Lock {
+      public:
+        explicit Lock(Context &context);
+        ~Lock() { context_.owner_ = std::thread::id(); }
+        Lock(const Lock &) = delete;
+        Lock &operator=(const Lock &) = delete;
+
+      private:
+        Context &context_;
+        std::unique_lock<std::mutex> lock_;
+    };
 
   private:
     cl::Program build(const std::string &file, const std::string &options);
@@ -44,6 +57,7 @@ class Context {
     std::map<std::string, cl::Program> programs_;
     double build_seconds_ = 0.0;
     std::mutex mutex_;
+    std::atomic<std::thread::id> owner_{};
 };
 
 // The text of a kernel file with its includes put in place, each once, with #line directives so that a compiler's log

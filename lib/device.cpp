@@ -79,9 +79,10 @@ DeviceInfo device_info(const cl::Device &device) {
 cl::Device choose_device(const std::string &wanted) {
     const std::vector<cl::Device> devices = all_devices();
     if (devices.empty())
-        fail(Fault::NoDevice,
-             "no OpenCL device; install one for the CPU, such as the package pocl-opencl-icd (which shows none where it "
-             "cannot write its cache, POCL_CACHE_DIR or ~/.cache/pocl)");
+        fail(
+            Fault::NoDevice,
+            "no OpenCL device; install one for the CPU, such as the package pocl-opencl-icd (which shows none where it "
+            "cannot write its cache, POCL_CACHE_DIR or ~/.cache/pocl)");
     if (wanted.empty()) {
         const auto cpu = std::find_if(devices.begin(), devices.end(), [](const cl::Device &d) {
             return (d.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;

@@ -56,8 +56,8 @@ std::vector<Wave> relief_waves(const Displacement &x) {
     const double shared = std::min(x.alpha_x, x.alpha_y);
     std::vector<Wave> waves;
     add_solid_waves(waves, shared, random);
-    add_line_waves(waves, std::sqrt(x.alpha_x * x.alpha_x - shared * shared), along_theta, random);
-    add_line_waves(waves, std::sqrt(x.alpha_y * x.alpha_y - shared * shared), along_phi, random);
+    add_line_waves(waves, std::sqrt((x.alpha_x - shared) * (x.alpha_x + shared)), along_theta, random);
+    add_line_waves(waves, std::sqrt((x.alpha_y - shared) * (x.alpha_y + shared)), along_phi, random);
     return waves;
 }
 
@@ -72,7 +72,7 @@ double mean_radius(const std::vector<Wave> &waves) {
 
 Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions &options) {
     validate(scene);
-    const auto lock = context.lock();
+    const Context::Lock lock(context);
     const CallTimer timer(context);
     Rendered result{Image(scene.width, scene.height), {}};
     report_progress(options, 0.0);

@@ -18,8 +18,8 @@ Image::Image(std::uint32_t image_width, std::uint32_t image_height) : width(imag
 double quantile(const Image &image, double q) {
     require(q >= 0.0 && q <= 1.0, "q is ", q, "; it must be 0..1");
     std::vector<float> values;
-    for (std::size_t at = 0; at < image.pixels(); ++at)
-        if (image.rgba[4 * at + 3] > 0.0f) values.insert(values.end(), &image.rgba[4 * at], &image.rgba[4 * at] + 3);
+    for (std::size_t at = 0; at < image.rgba.size(); ++at)
+        if (at % 4 != 3 && image.rgba[at | 3] > 0.0f && !std::isnan(image.rgba[at])) values.push_back(image.rgba[at]);
     if (values.empty()) return 0.0;
     const auto rank = static_cast<std::ptrdiff_t>(std::llround(q * static_cast<double>(values.size() - 1)));
     std::nth_element(values.begin(), values.begin() + rank, values.end());

@@ -237,6 +237,12 @@ std::uint32_t next_spp(std::uint32_t spp, double error, double target) {
     return next;
 }
 
+bool draws_about_wh(const Scene &scene, const RenderOptions &options) {
+    const std::vector<Pass> passes = sampling_plan(scene.displacement, options.sampler, options.spp).passes;
+    return std::any_of(passes.begin(), passes.end(),
+                       [](const Pass &pass) { return pass.technique == Technique::AboutWhBalanced; });
+}
+
 void describe_reference(Image &image, const Brdf &brdf, const Scene &scene, const RenderOptions &options,
                         const RenderReport &report) {
     const char *samplers[] = {"grid", "sobol", "mis"};
@@ -253,14 +259,15 @@ void describe_reference(Image &image, const Brdf &brdf, const Scene &scene, cons
 
 } // namespace
 
-Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vector<Lobe> &proposal, const Scene &scene,
+Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
                              const RenderOptions &options) {
     validate(scene);
     validate(options);
-    const auto lock = context.lock();
+    const Context::Lock lock(context);
     const CallTimer timer(context);
     Rendered result{Image(scene.width, scene.height), {}};
     report_progress(options, 0.0);
+    const std::vector<Lobe> proposal = draws_about_wh(scene, options) ? source() : std::vector<Lobe>{};
 
     constexpr std::uint32_t first_try = 64;
     const bool to_target = options.target_error > 0.0;
@@ -270,6 +277,8 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vect
         result.report = integrate_image(context, brdf, proposal, scene, options, spp, result.image);
         kernel_seconds += result.report.kernel_seconds;
         evaluations += result.report.evaluations;
+        if (std::isnan(result.report.standard_error))
+            fail(Fault::Internal, "the reference's standard error is no number");
         if (!to_target || result.report.standard_error <= options.target_error || spp >= max_spp) break;
         spp = next_spp(spp, result.report.standard_error, options.target_error);
     }

@@ -1,16 +1,21 @@
 // Launches of cl/integrate_reference.cl: the measured table integrated over the facets of X.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "brdf.h"
 #include "material.h"
 #include "render.h"
 
 namespace smx {
 
+using ProposalSource = std::function<const std::vector<Lobe> &()>;
+
 // options.spp samples per pixel, or as many as options.target_error needs. Where X has roughness along one axis only,
 // all samples go along it; where it has none, one is exact. `proposal` is the mixture that Sampler::Mis draws from
-// about the half vector; the others do without.
-Rendered integrate_reference(Context &context, const Brdf &brdf, const std::vector<Lobe> &proposal, const Scene &scene,
+// about the half vector, asked for only where it is drawn from.
+Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalSource &proposal, const Scene &scene,
                              const RenderOptions &options);
 
 } // namespace smx

@@ -169,7 +169,9 @@ Material load_material(const std::string &path) {
 }
 
 void save_material(const Material &material, const std::string &path) {
-    write_atomically(path, to_json(material).dump(2) + "\n");
+    // A name that is no UTF-8, of a file named so, keeps its place with replacement characters.
+    const std::string text = to_json(material).dump(2, ' ', false, ordered_json::error_handler_t::replace);
+    write_atomically(path, text + "\n");
 }
 
 } // namespace smx

@@ -40,7 +40,8 @@ void validate(const RenderOptions &o) {
         require(side * side == o.spp, "spp is ", o.spp, "; the grid needs a square, such as ", side * side);
     }
     if (o.sampler == Sampler::Mis) require(o.spp % 2 == 0, "spp is ", o.spp, "; mis needs an even number");
-    require(o.target_error >= 0.0 && o.target_error < 1.0, "target_error is ", o.target_error, "; it must be 0..1");
+    require(o.target_error >= 0.0 && o.target_error < 1.0, "target_error is ", o.target_error,
+            "; it must be at least 0 and below 1");
     require(o.target_error == 0.0 || o.sampler != Sampler::Grid,
             "target_error needs the sampler sobol or mis: a grid has no estimate of its error");
 }

@@ -40,14 +40,23 @@ void validate(const Scene &s) {
     validate(s.displacement);
 }
 
+namespace {
+
+// A variance this small (an alpha of 1e-9) is none: it is lost beside any lobe's, of alpha 1e-4 at the least, and its
+// density would leave the range of a float.
+double significant(double variance) { return variance < 1e-18 ? 0.0 : variance; }
+
+} // namespace
+
 PrincipalAxes principal_axes(const Displacement &x) {
-    const double xx = x.alpha_x * x.alpha_x, yy = x.alpha_y * x.alpha_y, xy = x.rho * x.alpha_x * x.alpha_y;
+    const double xx = significant(x.alpha_x * x.alpha_x), yy = significant(x.alpha_y * x.alpha_y);
+    const double xy = xx > 0.0 && yy > 0.0 ? x.rho * x.alpha_x * x.alpha_y : 0.0;
     if (xy == 0.0) return {1.0, 0.0, xx, yy};
     // The larger root by a sum, the smaller as the determinant over it, so that neither cancels.
     const double half = (xx - yy) / 2, radius = std::hypot(half, xy);
     const double larger = (xx + yy) / 2 + radius, smaller = xx * yy * (1.0 - x.rho) * (1.0 + x.rho) / larger;
     const double angle = std::atan2(xy, half) / 2;
-    return {std::cos(angle), std::sin(angle), larger, smaller};
+    return {std::cos(angle), std::sin(angle), larger, significant(smaller)};
 }
 
 DeviceDisplacement to_device(const Displacement &x) {

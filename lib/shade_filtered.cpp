@@ -74,7 +74,7 @@ std::vector<float> to_planes(const float *packed, std::size_t count, std::size_t
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
-    const auto lock = context.lock();
+    const Context::Lock lock(context);
     const CallTimer timer(context);
     Rendered result{Image(scene.width, scene.height), {}};
     report_progress(options, 0.0);
@@ -115,12 +115,12 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
     validate(displacement);
     require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
             "; it must be 0 or 1");
+    constexpr std::size_t most = std::size_t{std::numeric_limits<cl_int>::max()} / 3 - 16;
+    require(count <= most, "count is ", count, "; it must be 0..", most);
     const std::size_t stride = round_up(count, context.width());
-    require(stride <= static_cast<std::size_t>(std::numeric_limits<cl_int>::max()) / 3, "count is ", count,
-            "; it must be below 715827882");
     if (count == 0) return;
 
-    const auto lock = context.lock();
+    const Context::Lock lock(context);
     const std::vector<DeviceLobe> lobes = widened_lobes(material, displacement);
     const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));

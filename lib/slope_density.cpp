@@ -22,9 +22,9 @@ struct Nodes {
 };
 
 // theta = u^2 pi/2 on equidistant u. The densities vanish smoothly at both ends in u, where the trapezoid rule
-// converges fastest (alpha 1e-3 is recovered to 1e-3). Its weight at node 0 is zero; node 0 gets that of a linear
-// interpolant's first half cell, integral of (1 - u/h) theta dtheta, with the root mean square slope there, so that a
-// mirror, whose mass is all in node 0, has mass.
+// converges fastest. Its weight at node 0 is zero; node 0 gets that of a linear interpolant's first half cell, integral
+// of (1 - u/h) theta dtheta, with the root mean square slope there, so that a mirror, whose mass is all in node 0, has
+// mass. A Beckmann alpha comes back to 0.44 % at 1e-3, to 0.05 % from 3e-3; below 1e-3 it is not in the table.
 Nodes make_nodes() {
     Nodes n;
     constexpr double h = 1.0 / nodes;
@@ -86,7 +86,7 @@ std::vector<double> normalise(const Nodes &n, std::vector<double> &ndf) {
     return mass;
 }
 
-double relative_l1(const std::vector<double> &a, const std::vector<double> &b) {
+double l1_distance(const std::vector<double> &a, const std::vector<double> &b) {
     double change = 0.0;
     for (std::size_t j = 0; j < a.size(); ++j) change += std::abs(a[j] - b[j]);
     return change; // both sum to 1
@@ -101,7 +101,7 @@ std::vector<double> dominant_ndf(const Nodes &n, const Matrix &kernel, const Inv
         for (std::size_t o = 0; o < nodes; ++o)
             next[o] = std::inner_product(kernel[o].begin(), kernel[o].end(), ndf.begin(), 0.0);
         const std::vector<double> next_mass = normalise(n, next);
-        result.change = relative_l1(mass, next_mass);
+        result.change = l1_distance(mass, next_mass);
         result.converged = result.change < options.tolerance;
         ++result.iterations;
         ndf = std::move(next);

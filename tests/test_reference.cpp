@@ -36,7 +36,7 @@ const std::vector<Setting> &settings() {
         {"isotropic 0.1, behind", {0.1, 0.1, 0.0, 0.0, 0.0}, -25.0, SMX_G2_CORRELATED},
         {"latitudinal 0.25", {0.25, 0.0, 0.0, 0.0, 0.0}, 40.0, SMX_G2_CORRELATED},
         {"longitudinal 0.5", {0.0, 0.5, 0.0, 0.0, 0.0}, 0.0, SMX_G2_CORRELATED},
-        {"correlated slopes", {0.4, 0.2, 0.6, 0.0, 0.0}, 40.0, SMX_G2_CORRELATED},
+        {"correlated slopes", {0.6, 0.4, 0.7, 0.0, 0.0}, 40.0, SMX_G2_CORRELATED},
         {"mean slope", {0.25, 0.25, 0.0, 0.3, -0.2}, 40.0, SMX_G2_CORRELATED},
         {"mean slope on a line", {0.0, 0.3, 0.0, 0.1, 0.2}, 40.0, SMX_G2_CORRELATED},
         {"mean slope alone", {0.0, 0.0, 0.0, 0.2, 0.1}, 40.0, SMX_G2_CORRELATED},
@@ -73,7 +73,7 @@ struct Expected {
 std::vector<Expected> expected(const Table &table, const Setting &s) {
     const oracle::FacetBrdf f = oracle::table_brdf(table, Lookup::linear);
     std::vector<Expected> list;
-    for (uint32_t k = 0; k < resolution * resolution; k += 5) {
+    for (uint32_t k = 2; k < resolution * resolution; k += 5) {
         const uint32_t column = k % resolution, row = k / resolution;
         const oracle::Pixel p = oracle::sphere_pixel(resolution, resolution, column, row, test::radians(s.light_deg));
         if (!p.on_sphere) continue;
