@@ -97,12 +97,12 @@ inline Facets load_facets(const Pixel *p, const Displacement *x, __global const 
     m.above = mz > (realW)0.0f;
     realW safe_mz = select((realW)1.0f, mz, m.above);
     realW slope_x = facet_slope(p->hx + m.cx, safe_mz), slope_y = facet_slope(p->hy + m.cy, safe_mz);
-    realW dx = slope_x - x->mean_x, dy = slope_y - x->mean_y;
-    realW d1 = x->axis_x * dx + x->axis_y * dy, d2 = x->axis_x * dy - x->axis_y * dx;
+    realW d11, d22;
+    principal_slopes2(x, slope_x, slope_y, &d11, &d22);
     realW inv_cos2 = (realW)1.0f + slope_x * slope_x + slope_y * slope_y;
     m.inv_mz = sqrt(inv_cos2);
     float peak = 1.0f / (M_PI_F * sqrt(x->var_1) * sqrt(x->var_2));
-    m.p_x = peak * exp_negative(-d1 * d1 / x->var_1 - d2 * d2 / x->var_2) * inv_cos2 * m.inv_mz;
+    m.p_x = peak * exp_negative(-d11 / x->var_1 - d22 / x->var_2) * inv_cos2 * m.inv_mz;
     return m;
 }
 #else

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "clamped_cosine.h"
+
 namespace smx {
 
 using std::numbers::pi;
@@ -22,8 +24,7 @@ std::vector<double> projected_areas(const std::vector<double> &ndf) {
         for (std::size_t j = 0; j < ndf.size(); ++j) {
             const double theta = Brdf::theta_h(j), weight = std::sin(theta) * static_cast<double>(j) * h * ndf[j];
             const double cos_cos = cos_k * std::cos(theta), sin_sin = sin_k * std::sin(theta);
-            const double edge = cos_cos >= sin_sin ? pi : std::acos(-cos_cos / sin_sin);
-            sigma[s] += 2 * (edge * cos_cos + sin_sin * std::sin(edge)) * weight;
+            sigma[s] += clamped_cosine_ring(cos_cos, sin_sin) * weight;
             norm += 2 * pi * std::cos(theta) * weight;
         }
         sigma[s] = norm > 0.0 ? sigma[s] / norm : cos_k; // a mirror's distribution has its mass at the pole alone

@@ -136,17 +136,17 @@ Material from_json(const json &document) {
 
 // Ranges, and what the rest of the library takes for granted of a material: the lobes' order and the weights' sum.
 void check_values(const Material &m) {
+    try {
+        validate(m);
+    } catch (const Error &e) {
+        fail(Fault::BadFormat, "$.", e.what());
+    }
     double total = 0.0;
     for (const Lobe &lobe : m.lobes) total += lobe.weight;
     if (std::abs(total - 1.0) > 1e-9) fail(Fault::BadFormat, "$.lobes: the weights sum to ", total, ", not 1");
     for (std::size_t k = 1; k < m.lobes.size(); ++k)
         if (m.lobes[k].alpha < m.lobes[k - 1].alpha)
             fail(Fault::BadFormat, "$.lobes[", k, "].alpha is ", m.lobes[k].alpha, ", below the lobe before it");
-    try {
-        validate(m);
-    } catch (const Error &e) {
-        fail(Fault::BadFormat, "$.", e.what());
-    }
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "clamped_cosine.h"
 #include "error.h"
 #include "fresnel_fit.h"
 
@@ -51,13 +52,6 @@ std::array<double, nodes> retro_reflection(const Brdf &brdf) {
         f[h] = sum / (3.0 * static_cast<double>(brdf.phi_d_count()));
     }
     return f;
-}
-
-// Integral over the azimuth of <o,h>+, in closed form.
-double clamped_cosine_ring(double cos_cos, double sin_sin) {
-    if (cos_cos >= sin_sin) return 2 * pi * cos_cos;
-    const double edge = std::acos(-cos_cos / sin_sin);
-    return 2 * (edge * cos_cos + sin_sin * std::sin(edge));
 }
 
 using Matrix = std::vector<std::array<double, nodes>>;
