@@ -56,12 +56,14 @@ std::vector<smx_lobe> lobes_of(const Material &material) {
 }
 
 Fitted fit_one(const FitJob &job, const std::string &input) {
-    const Material material = fit(invert(open_brdf(input)), job.fit);
+    const Material material = fit(open_density(input), fit_flags_for(input, job.fit));
     const std::string file = job.file_for(input);
     make_folder_of(file);
     check(smx_material_save(material.get(), file.c_str()));
     return {input, file, info_of(material).model, lobes_of(material), report_of(material)};
 }
+
+constexpr const char *density_note = "a slope density has no BRDF to fit other curves to: F = 1";
 
 Json to_json(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
@@ -72,6 +74,7 @@ Json to_json(const Fitted &fitted) {
             {"name", name_of(fitted.input)},
             {"file", fitted.file},
             {"model", word_for(fitted.model, models)},
+            {"model_note", is_density(fitted.input) ? Json(density_note) : Json()},
             {"lobes", lobes},
             {"log_likelihood_em", report.log_likelihood_em},
             {"log_likelihood", report.log_likelihood},
@@ -95,7 +98,9 @@ std::string refined(double before, double after) {
 
 void print_text(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
-    std::cout << name_of(fitted.input) << " -> " << fitted.file << ", " << word_for(fitted.model, models) << '\n';
+    std::cout << name_of(fitted.input) << " -> " << fitted.file << ", " << word_for(fitted.model, models);
+    if (is_density(fitted.input)) std::cout << " (" << density_note << ')';
+    std::cout << '\n';
     std::vector<TextRow> rows = {{"  lobe", "weight", "alpha"}};
     for (const smx_lobe &lobe : fitted.lobes)
         rows.push_back({std::to_string(rows.size()), fixed(lobe.weight, 6), general(lobe.alpha, 5)});
@@ -155,6 +160,7 @@ class FitRun {
 
 void run(const FitJob &job) {
     refuse_equal_names(job);
+    for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
     for (const std::string &input : job.inputs) require_writable(job.file_for(input));
 
     FitRun fits(job);
@@ -172,9 +178,14 @@ void run(const FitJob &job) {
 } // namespace
 
 void add_fit(CLI::App &app) {
-    CLI::App *command = app.add_subcommand("fit", "Fit measured tables and write material files, DIR/<name>.json");
+    CLI::App *command =
+        app.add_subcommand("fit", "Fit measured tables or slope densities and write material files, DIR/<name>.json");
     const auto job = std::make_shared<FitJob>();
-    command->add_option("INPUT", job->inputs, "MERL tables (.binary) or builtin:NAME")->required()->type_name("");
+    command
+        ->add_option("INPUT", job->inputs,
+                     "MERL tables (.binary), builtin:NAME, analytic:KIND,... (see synth) or density:FILE.csv")
+        ->required()
+        ->type_name("");
     command->add_option("--out", job->out, "Folder of the material files")->required()->type_name("DIR");
     add_fit_flags(*command, job->fit);
     command->add_flag("--json", job->json, "Print JSON");
