@@ -21,8 +21,10 @@ Sigma sigma(double cosine, double s) {
 
 } // namespace
 
-LobeValue lobe_value(const DirectionSample &d, double alpha) {
-    const double inv_alpha2 = 1.0 / (alpha * alpha), exponent = d.tan2 * inv_alpha2;
+LobeValue lobe_value(const DirectionSample &d, double base_alpha) {
+    const double alpha2 = base_alpha * base_alpha + d.displacement2, alpha = std::sqrt(alpha2);
+    const double chain = base_alpha * base_alpha / alpha2;
+    const double inv_alpha2 = 1.0 / alpha2, exponent = d.tan2 * inv_alpha2;
     const double ndf = std::exp(-exponent) * inv_alpha2 * std::numbers::inv_pi * d.inv_cos4;
     if (ndf == 0.0) return {0.0, 0.0};
     const double s_i = alpha * d.sin_i, s_o = alpha * d.sin_o;
@@ -30,7 +32,7 @@ LobeValue lobe_value(const DirectionSample &d, double alpha) {
     const double denominator = i.value * d.co + o.value * d.ci - d.ci * d.co;
     const double value = ndf / (4 * denominator);
     const double denominator_slope = i.by_s * s_i * d.co + o.by_s * s_o * d.ci;
-    return {value, value * (2 * exponent - 2 - denominator_slope / denominator)};
+    return {value, value * chain * (2 * exponent - 2 - denominator_slope / denominator)};
 }
 
 } // namespace smx

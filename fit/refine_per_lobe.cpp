@@ -1,5 +1,6 @@
 #include "refine_per_lobe.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -12,86 +13,88 @@ namespace smx {
 
 namespace {
 
-// A sample whose error is more than this share of its whole level's value is taken for a fault of the table, and its
-// pull falls off: half at the scale, then as its inverse.
-constexpr double cauchy_scale = 0.1;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-// The lobes at every sample, computed once per evaluation point for all channels.
-class LobeCache : public ceres::EvaluationCallback {
+// What the residuals of one level are made of, in an orthonormal basis of the few dimensions that they span: a level
+// has hundreds of samples, but model, derivatives and data are combinations of 2 n + 3 columns. The triangular factor R
+// of [lobes, their derivatives by log alpha, f_r f_g f_b] has the same inner products, so the same cost, gradient and
+// Gauss-Newton matrix, at a thirtieth of the rows.
+class CompressedLevels : public ceres::EvaluationCallback {
   public:
-    LobeCache(const std::vector<DirectionLevel> &levels, const std::vector<double> &log_alphas)
-        : levels_(levels), log_alphas_(log_alphas) {
-        for (const DirectionLevel &level : levels) values_.emplace_back(level.samples.size() * log_alphas.size());
-    }
+    CompressedLevels(const std::vector<DirectionLevel> &levels, const std::vector<double> &log_alphas)
+        : levels_(levels), log_alphas_(log_alphas), factors_(levels.size()) {}
+
     void PrepareForEvaluation(bool, bool new_point) override {
         if (!new_point) return;
-        const std::size_t n = log_alphas_.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            const double alpha = std::exp(log_alphas_[k]);
-            for (std::size_t l = 0; l < levels_.size(); ++l)
-                for (std::size_t s = 0; s < levels_[l].samples.size(); ++s)
-                    values_[l][s * n + k] = lobe_value(levels_[l].samples[s], alpha);
-        }
+        for (std::size_t l = 0; l < levels_.size(); ++l) factors_[l] = factor(levels_[l]);
     }
-    const LobeValue *at(std::size_t level, std::size_t sample) const {
-        return values_[level].data() + sample * log_alphas_.size();
+    Eigen::Index rows() const { return columns(); }
+    auto lobe(std::size_t level, Eigen::Index k) const { return factors_[level].col(k); }
+    auto derivative(std::size_t level, Eigen::Index k) const { return factors_[level].col(lobes() + k); }
+    auto data(std::size_t level, std::size_t channel) const {
+        return factors_[level].col(2 * lobes() + static_cast<Eigen::Index>(channel));
     }
+    Eigen::Index lobes() const { return static_cast<Eigen::Index>(log_alphas_.size()); }
 
   private:
+    Eigen::Index columns() const { return 2 * lobes() + 3; }
+
+    MatrixXd factor(const DirectionLevel &level) const {
+        const Eigen::Index n = lobes(), rows = std::max(static_cast<Eigen::Index>(level.samples.size()), columns());
+        MatrixXd m = MatrixXd::Zero(rows, columns());
+        for (std::size_t s = 0; s < level.samples.size(); ++s) {
+            const DirectionSample &sample = level.samples[s];
+            const auto row = static_cast<Eigen::Index>(s);
+            for (Eigen::Index k = 0; k < n; ++k) {
+                const LobeValue lobe = lobe_value(sample, std::exp(log_alphas_[static_cast<std::size_t>(k)]));
+                m(row, k) = sample.weight * lobe.value;
+                m(row, n + k) = sample.weight * lobe.derivative;
+            }
+            for (Eigen::Index c = 0; c < 3; ++c)
+                m(row, 2 * n + c) = sample.weight * sample.f[static_cast<std::size_t>(c)];
+        }
+        const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(m); // in place
+        return m.topRows(columns()).triangularView<Eigen::Upper>();
+    }
+
     const std::vector<DirectionLevel> &levels_;
     const std::vector<double> &log_alphas_;
-    std::vector<std::vector<LobeValue>> values_;
+    std::vector<MatrixXd> factors_;
 };
-
-// Residual with a Cauchy loss per sample, as a least-squares term: its square is scale^2 log(1 + (r / scale)^2).
-struct Robust {
-    double residual, derivative;
-};
-
-Robust robust(double r, double scale) {
-    const double x = r / scale, x2 = x * x;
-    if (x2 < 1e-8) return {r, 1.0}; // the quotient below is 0 / 0 at 0, and 1 - 3/4 x2 near it
-    const double root = std::sqrt(std::log1p(x2));
-    return {std::copysign(scale * root, r), std::abs(x) / (root * (1.0 + x2))};
-}
 
 // One level and channel. Parameters: log alphas, then the lobes' three coefficients that make the curve at theta_d.
 class LevelResiduals : public ceres::CostFunction {
   public:
-    LevelResiduals(const LobeCache &cache, const DirectionLevel &level, std::size_t index, std::size_t channel,
-                   int lobes)
-        : cache_(cache), level_(level), index_(index), channel_(channel), share_(curve_shares(level.theta_d).weight) {
-        *mutable_parameter_block_sizes() = {lobes, lobes, lobes, lobes};
-        set_num_residuals(static_cast<int>(level.samples.size()));
+    LevelResiduals(const CompressedLevels &levels, std::size_t index, double theta_d, std::size_t channel)
+        : levels_(levels), index_(index), channel_(channel), share_(curve_shares(theta_d).weight) {
+        const int n = static_cast<int>(levels.lobes());
+        *mutable_parameter_block_sizes() = {n, n, n, n};
+        set_num_residuals(static_cast<int>(levels.rows()));
     }
     bool Evaluate(double const *const *p, double *residuals, double **jacobians) const override {
-        const auto n = static_cast<std::size_t>(parameter_block_sizes()[0]);
-        for (std::size_t s = 0; s < level_.samples.size(); ++s) {
-            const DirectionSample &sample = level_.samples[s];
-            const LobeValue *lobes = cache_.at(index_, s);
-            double model = 0.0;
-            for (std::size_t k = 0; k < n; ++k) model += curve(p, k) * lobes[k].value;
-            const auto [residual, derivative] =
-                robust(sample.weight * (model - sample.f[channel_]), cauchy_scale * level_.norm);
-            residuals[s] = residual;
-            if (!jacobians) continue;
-            const double pull = derivative * sample.weight;
-            for (std::size_t k = 0; k < n; ++k) {
-                if (jacobians[0]) jacobians[0][s * n + k] = pull * curve(p, k) * lobes[k].derivative;
-                for (std::size_t a = 0; a < 3; ++a)
-                    if (jacobians[1 + a]) jacobians[1 + a][s * n + k] = pull * share_[a] * lobes[k].value;
-            }
+        using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const Eigen::Index n = levels_.lobes(), rows = levels_.rows();
+        Eigen::Map<VectorXd> r(residuals, rows);
+        r = -levels_.data(index_, channel_);
+        for (Eigen::Index k = 0; k < n; ++k) r += curve(p, k) * levels_.lobe(index_, k);
+        if (!jacobians) return true;
+        for (Eigen::Index k = 0; k < n; ++k) {
+            if (jacobians[0])
+                Eigen::Map<RowMajor>(jacobians[0], rows, n).col(k) = curve(p, k) * levels_.derivative(index_, k);
+            for (std::size_t a = 0; a < 3; ++a)
+                if (jacobians[1 + a])
+                    Eigen::Map<RowMajor>(jacobians[1 + a], rows, n).col(k) = share_[a] * levels_.lobe(index_, k);
         }
         return true;
     }
 
   private:
-    double curve(double const *const *p, std::size_t k) const {
+    double curve(double const *const *p, Eigen::Index k) const {
         return share_[0] * p[1][k] + share_[1] * p[2][k] + share_[2] * p[3][k];
     }
 
-    const LobeCache &cache_;
-    const DirectionLevel &level_;
+    const CompressedLevels &levels_;
     std::size_t index_, channel_;
     std::array<double, 3> share_;
 };
@@ -147,28 +150,26 @@ struct Unknowns {
 };
 
 // Each lobe's mean square in the data per coefficient, which its roughness is measured by.
-std::vector<double> roughness_scales(const std::vector<DirectionLevel> &levels, const LobeCache &cache,
-                                     std::size_t lobes) {
-    std::vector<double> scales(lobes, 0.0);
-    for (std::size_t l = 0; l < levels.size(); ++l)
-        for (std::size_t s = 0; s < levels[l].samples.size(); ++s)
-            for (std::size_t k = 0; k < lobes; ++k) {
-                const double seen = levels[l].samples[s].weight * cache.at(l, s)[k].value;
-                scales[k] += seen * seen;
-            }
-    for (double &scale : scales) scale = std::sqrt(smoothness * scale / static_cast<double>(curve_coefficients));
+std::vector<double> roughness_scales(const CompressedLevels &levels, std::size_t count) {
+    std::vector<double> scales;
+    for (Eigen::Index k = 0; k < levels.lobes(); ++k) {
+        double seen = 0.0;
+        for (std::size_t l = 0; l < count; ++l) seen += levels.lobe(l, k).squaredNorm();
+        scales.push_back(std::sqrt(smoothness * seen / static_cast<double>(curve_coefficients)));
+    }
     return scales;
 }
 
-void pose(ceres::Problem &problem, Unknowns &u, const LobeCache &cache, const std::vector<DirectionLevel> &levels,
-          const std::vector<double> &scales) {
+void pose(ceres::Problem &problem, Unknowns &u, const CompressedLevels &compressed,
+          const std::vector<DirectionLevel> &levels, const std::vector<double> &scales) {
     const int n = static_cast<int>(u.log_alphas.size());
     for (std::size_t c = 0; c < 3; ++c) {
         auto &values = u.values[c];
         for (std::size_t l = 0; l < levels.size(); ++l) {
             const std::size_t first = curve_shares(levels[l].theta_d).first;
-            problem.AddResidualBlock(new LevelResiduals(cache, levels[l], l, c, n), nullptr, u.log_alphas.data(),
-                                     values[first].data(), values[first + 1].data(), values[first + 2].data());
+            problem.AddResidualBlock(new LevelResiduals(compressed, l, levels[l].theta_d, c), nullptr,
+                                     u.log_alphas.data(), values[first].data(), values[first + 1].data(),
+                                     values[first + 2].data());
         }
         for (std::size_t j = 0; j + 2 < curve_coefficients; ++j)
             problem.AddResidualBlock(new RoughnessResiduals(scales), nullptr, values[j].data(), values[j + 1].data(),
@@ -207,19 +208,19 @@ double brdf_residual(const std::vector<DirectionLevel> &levels, const PerLobeFit
 
 PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, const PerLobeFit &start) {
     Unknowns unknowns(start);
-    LobeCache cache(levels, unknowns.log_alphas);
-    cache.PrepareForEvaluation(true, true);
-    const auto scales = roughness_scales(levels, cache, start.alphas.size());
+    CompressedLevels compressed(levels, unknowns.log_alphas);
+    compressed.PrepareForEvaluation(true, true);
+    const auto scales = roughness_scales(compressed, levels.size());
 
     ceres::Problem::Options problem_options;
-    problem_options.evaluation_callback = &cache;
+    problem_options.evaluation_callback = &compressed;
     ceres::Problem problem(problem_options);
-    pose(problem, unknowns, cache, levels, scales);
+    pose(problem, unknowns, compressed, levels, scales);
 
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 8;
-    options.function_tolerance = 1e-3;
+    options.max_num_iterations = getenv("ITER") ? atoi(getenv("ITER")) : 8;
+    options.function_tolerance = getenv("FTOL") ? atof(getenv("FTOL")) : 1e-5;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

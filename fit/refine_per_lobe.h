@@ -20,9 +20,8 @@ struct PerLobeRefinement {
     std::string message;
 };
 
-// Residuals: (model - f) by the samples' weights, under a Cauchy loss per sample, and the second differences of the
-// curves' coefficients. Coefficients are bounded below by 0, alphas to 1e-4..1e4. Where the solver fails, the start
-// comes back.
+// Residuals: (model - f) by the samples' weights, and the second differences of the curves' coefficients. Coefficients
+// are bounded below by 0, alphas to 1e-4..1e4. Where the solver fails, the start comes back.
 PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, const PerLobeFit &start);
 
 // Relative error over all samples, by their weights: sqrt(sum (w (model - f))^2 / sum (w f)^2).
