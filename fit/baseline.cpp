@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "ceres_solver.h"
@@ -20,7 +21,8 @@ namespace {
 
 constexpr double cauchy_scale = 0.1; // of a level's value, as in refine_per_lobe.cpp
 constexpr std::array start_alphas = {0.005, 0.015, 0.05, 0.15, 0.4, 1.0};
-constexpr std::size_t starts = 2; // of them, the best
+constexpr std::size_t starts = 2;       // of them, the best
+constexpr double max_start_rise = 0.05; // theta_d up to 63 degrees
 
 // One sample, as the baselines see it.
 struct Observation {
@@ -72,24 +74,36 @@ struct Residual {
     }
 };
 
-double squared_residual(const std::vector<Observation> &all, Baseline kind, const BaselineFit &fit) {
+// Sum over the observations of measure(square of the three channels' residuals, the loss's squared scale).
+template <typename Measure>
+double sum_of(const std::vector<Observation> &all, Baseline kind, const BaselineFit &fit, Measure measure) {
     double sum = 0.0;
     for (const Observation &o : all) {
         const double shape = lobe(kind, o.at, fit.alpha);
+        double square = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {
             const double r = o.weight * (value(shape, o.rise, fit.f0[c], fit.kd[c]) - o.f[c]);
-            sum += r * r;
+            square += r * r;
         }
+        sum += measure(square, o.loss_scale * o.loss_scale);
     }
     return sum;
 }
 
-// The colours at this alpha: for each channel, least squares in f0 and kd with both at or above 0.
+// Twice the cost that Ceres minimises.
+double robust_cost(const std::vector<Observation> &all, Baseline kind, const BaselineFit &fit) {
+    return sum_of(all, kind, fit, [](double square, double scale2) { return scale2 * std::log1p(square / scale2); });
+}
+
+// The colours at this alpha, for a start: for each channel, least squares in f0 and kd with both at or above 0. Only
+// where Schlick's curve has not risen yet: towards grazing it is 1 whatever f0 is, and a sharp lobe on a table without
+// that rise is off by so much that nothing else would count.
 void solve_colours(const std::vector<Observation> &all, Baseline kind, BaselineFit &fit) {
     for (std::size_t c = 0; c < 3; ++c) {
         // Normal equations of f - rise lobe = f0 (1 - rise) lobe + kd / pi.
         double aa = 0.0, ab = 0.0, bb = 0.0, ay = 0.0, by = 0.0;
         for (const Observation &o : all) {
+            if (o.rise > max_start_rise) continue;
             const double shape = lobe(kind, o.at, fit.alpha), w2 = o.weight * o.weight;
             const double a = (1.0 - o.rise) * shape, b = std::numbers::inv_pi, y = o.f[c] - o.rise * shape;
             aa += w2 * a * a;
@@ -111,16 +125,17 @@ void solve_colours(const std::vector<Observation> &all, Baseline kind, BaselineF
 
 // The best starts, best first.
 std::vector<BaselineFit> best_starts(const std::vector<Observation> &all, Baseline kind) {
-    std::vector<BaselineFit> list;
+    std::vector<std::pair<double, BaselineFit>> list; // with their costs
     for (double alpha : start_alphas) {
-        list.emplace_back();
-        list.back().alpha = alpha;
-        solve_colours(all, kind, list.back());
-        list.back().residual = squared_residual(all, kind, list.back());
+        BaselineFit fit;
+        fit.alpha = alpha;
+        solve_colours(all, kind, fit);
+        list.emplace_back(robust_cost(all, kind, fit), fit);
     }
-    std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.residual < b.residual; });
-    list.resize(starts);
-    return list;
+    std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    std::vector<BaselineFit> best;
+    for (std::size_t k = 0; k < starts; ++k) best.push_back(list[k].second);
+    return best;
 }
 
 // Refines the fit in place; returns its cost, infinite where the solver fails.
@@ -171,7 +186,7 @@ BaselineFit fit_baseline(const Brdf &brdf, Baseline kind) {
     double value2 = 0.0;
     for (const Observation &o : all)
         for (double f : o.f) value2 += o.weight * o.weight * f * f;
-    fit.residual = std::sqrt(squared_residual(all, kind, fit) / value2);
+    fit.residual = std::sqrt(sum_of(all, kind, fit, [](double square, double) { return square; }) / value2);
     fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fit.errors = brdf_errors(
         [&](std::size_t, std::size_t, const Cosines &at) {
