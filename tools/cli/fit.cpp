@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "fit_compare.h"
 #include "flags.h"
 #include "input.h"
 #include "output.h"
@@ -23,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 struct FitJob {
     std::vector<std::string> inputs;
-    std::string out;
+    std::string out, compare;
     FitFlags fit;
     bool json = false;
 
@@ -159,6 +160,11 @@ class FitRun {
 };
 
 void run(const FitJob &job) {
+    if (!job.compare.empty()) {
+        if (job.inputs.size() != 1) throw CLI::ValidationError("--compare", "it takes one INPUT, the source");
+        return compare_tables(job.compare, job.inputs[0], job.json);
+    }
+    if (job.out.empty()) throw CLI::RequiredError("--out");
     refuse_equal_names(job);
     for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
     for (const std::string &input : job.inputs) require_writable(job.file_for(input));
@@ -186,7 +192,12 @@ void add_fit(CLI::App &app) {
                      "MERL tables (.binary), builtin:NAME, analytic:KIND,... (see synth) or density:FILE.csv")
         ->required()
         ->type_name("");
-    command->add_option("--out", job->out, "Folder of the material files")->required()->type_name("DIR");
+    CLI::Option *out = command->add_option("--out", job->out, "Folder of the material files")->type_name("DIR");
+    command
+        ->add_option("--compare", job->compare,
+                     "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
+        ->excludes(out)
+        ->type_name("OTHER.binary");
     add_fit_flags(*command, job->fit);
     command->add_flag("--json", job->json, "Print JSON");
     command->callback([job] { run(*job); });
