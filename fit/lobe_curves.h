@@ -1,15 +1,11 @@
 // The linear stage of the per-lobe model: given the lobes' alphas, the non-negative Fresnel curves that fit best.
 #pragma once
 
-#include <array>
 #include <vector>
 
-#include "direction_samples.h"
+#include "per_lobe_fit.h"
 
 namespace smx {
-
-// Coefficients (curve_basis.h) per lobe, channel.
-using CurveCoefficients = std::array<std::vector<double>, 3>;
 
 // One set of curves per alpha. Non-negative least squares on the samples' weighted residuals, regularised by the
 // smoothness of each curve in proportion to its lobe's own weight in the data; solved by Ceres with bounds.

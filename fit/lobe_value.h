@@ -11,6 +11,7 @@ struct LobeValue {
     double derivative; // by log alpha
 };
 
+// The lobe is widened by the sample's displacement, as the closed form widens it; alpha is its own.
 LobeValue lobe_value(const DirectionSample &s, double alpha);
 
 } // namespace smx

@@ -1,30 +1,25 @@
-// Refinement of the per-lobe model in BRDF space, by Ceres: log alphas and all curves together.
+// Refinement of the per-lobe model in BRDF space: log alphas and all curves together, by Ceres.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "direction_samples.h"
-#include "lobe_curves.h"
+#include "directional_albedo.h"
+#include "per_lobe_fit.h"
 
 namespace smx {
-
-struct PerLobeFit {
-    std::vector<double> alphas;
-    std::vector<CurveCoefficients> curves; // one set per alpha
-};
 
 struct PerLobeRefinement {
     PerLobeFit fit;
     unsigned iterations = 0;
-    std::string message;
+    std::string message; // the solver's own report of its last run
 };
 
-// Residuals: (model - f) by the samples' weights, and the second differences of the curves' coefficients. Coefficients
-// are bounded below by 0, alphas to 1e-4..1e4. Where the solver fails, the start comes back.
-PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, const PerLobeFit &start);
-
-// Relative error over all samples, by their weights: sqrt(sum (w (model - f))^2 / sum (w f)^2).
-double brdf_residual(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit);
+// Least squares (per_lobe_problem.h) under a Cauchy loss per sample, by reweighting (Holland, Welsch 1977): samples whose
+// error is beyond a tenth of their level's value are taken for faults of the table. The albedo is held to its bound:
+// where the fit exceeds it, the bound joins the problem; a last rest is scaled away. Where the solver fails, the start
+// comes back.
+PerLobeRefinement refine_per_lobe(const std::vector<DirectionLevel> &levels, const DirectionalAlbedo &albedo,
+                                  const PerLobeFit &start, unsigned max_iterations);
 
 } // namespace smx

@@ -1,0 +1,50 @@
+// The least-squares problem of the per-lobe model, as Ceres holds it: log alphas and all curves together.
+//   residuals   (model - f) by the samples' weights; second differences of the curves' coefficients; and, where asked
+//               for, what the directional albedo has beyond its bound
+//   bounds      coefficients from 0, alphas 1e-4..1e4
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ceres_solver.h"
+#include "compressed_levels.h"
+#include "directional_albedo.h"
+#include "per_lobe_fit.h"
+
+namespace smx {
+
+// The unknowns: a block of log alphas, and one of the lobes' values per channel and coefficient.
+struct Unknowns {
+    std::vector<double> log_alphas;
+    std::array<std::vector<std::vector<double>>, 3> values; // [channel][coefficient][lobe]
+
+    explicit Unknowns(const PerLobeFit &fit);
+    PerLobeFit fit() const;
+};
+
+class PerLobeProblem : private ceres::EvaluationCallback {
+  public:
+    // `levels` and `albedo` must outlive the problem; albedo null: the energy is not bounded.
+    PerLobeProblem(const std::vector<DirectionLevel> &levels, const PerLobeFit &start,
+                   const DirectionalAlbedo *albedo = nullptr);
+
+    ceres::Problem &problem() { return *problem_; }
+    Unknowns &unknowns() { return unknowns_; }
+
+  private:
+    void PrepareForEvaluation(bool, bool new_point) override;
+    void add_levels(std::size_t channel);
+    void add_roughness(std::size_t channel);
+    void add_energy(std::size_t channel);
+    void add_bounds();
+
+    Unknowns unknowns_;
+    CompressedLevels levels_;
+    const DirectionalAlbedo *albedo_;
+    std::vector<Rgb> albedo_bound_;
+    std::vector<DirectionalAlbedo::Shares> albedo_shares_;
+    std::unique_ptr<ceres::Problem> problem_;
+};
+
+} // namespace smx
