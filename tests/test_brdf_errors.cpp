@@ -17,7 +17,9 @@ constexpr double cells_tolerance = 2e-3;
 constexpr double cut_tolerance = 5e-3;
 // Of sums that differ in their order only.
 constexpr double exact = 1e-9;
-// Largest relative difference of two errors that should be 0, against the value itself: knots every degree.
+// Of sums over the same cells but a few: those at the horizon, which rounding puts above or below it.
+constexpr double horizon_tolerance = 1e-6;
+// Of an error that should be 0, for values up to a few.
 constexpr double zero_tolerance = 1e-9;
 
 test::Brdf open(const char *input) {
@@ -93,7 +95,7 @@ TEST(BrdfErrors, ChannelsAreAveragedBeforeTheRoot) {
 
 // A table scaled by 1.1: 0.1 times the root mean square of r cos_i, here over angles of wi and wo.
 TEST(BrdfErrors, OfAScaledTableAreAnIntegralOverDirections) {
-    constexpr int polar = 60, azimuths = 60;
+    constexpr int polar = 90, azimuths = 60; // the cut is between two of the polar angles
     double sum = 0.0, sum_80 = 0.0, weight = 0.0, weight_80 = 0.0;
     for (int i = 0; i < polar; ++i)
         for (int o = 0; o < polar; ++o)
@@ -124,7 +126,7 @@ TEST(BrdfErrors, HalfAndFullTurnAreTheSame) {
     const test::Brdf other = open("analytic:lambert,albedo=0.5");
     EXPECT_LT(compare(half, full).l2, exact);
     const smx_brdf_errors a = compare(other, half), b = compare(other, full);
-    EXPECT_CLOSE(a.l2, b.l2, exact, 0.0);
+    EXPECT_CLOSE(a.l2, b.l2, horizon_tolerance, 0.0);
     EXPECT_CLOSE(a.log_80, b.log_80, exact, 0.0);
 }
 

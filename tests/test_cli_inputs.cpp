@@ -66,7 +66,7 @@ TEST(CliInputs, DensitiesAreRefusedWhereABrdfIsNeeded) {
     const std::string input = "density:" + (dir / "paint.csv");
     EXPECT_CLI_FAILS(2, "--model", {"fit", "builtin:conductor", input, "--model", "per-lobe", "--out", dir / "out"});
     EXPECT_CLI_FAILS(1, "slope density", {"fit", "builtin:conductor", "--compare", input});
-    EXPECT_CLI_FAILS(1, "slope density", {"render", input, "--integrator", "filtered", "--out", dir / "x.exr"});
+    EXPECT_CLI_FAILS(1, "slope density", {"sheet", input, "--out", dir / "sheet"});
     EXPECT_CLI_FAILS(1, "line 2", [&] {
         test::write_file(dir / "bad.csv", "theta,p22\n0,x\n");
         return std::vector<std::string>{"fit", "density:" + (dir / "bad.csv"), "--out", dir / "out"};
