@@ -375,9 +375,9 @@ typedef enum smx_baseline {
 
 typedef struct smx_baseline_report {
     size_t size;
-    double alpha; /* 1e-4..1e4 */
-    double f0[3]; /* per channel, >= 0 */
-    double kd[3]; /* per channel, >= 0 */
+    double alpha;         /* 1e-4..1e4 */
+    double f0[3];         /* per channel, >= 0 */
+    double kd[3];         /* per channel, >= 0 */
     double brdf_residual; /* relative, root mean square over the fit's samples; comparable with smx_fit_report's */
     uint32_t iterations;
     char message[256]; /* the solver's verdict */

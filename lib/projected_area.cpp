@@ -13,7 +13,8 @@ using std::numbers::pi;
 namespace {
 
 // The samples sit at cosines x^2 of equidistant x: a sharp distribution bends within its own alpha of the horizon. Off
-// by less than 2e-5 of the value for Beckmann's alphas from 1e-3.
+// by at most 2e-5 of the value for Beckmann's and GGX's alphas 0.1..1, by 2e-4 at 0.01, by 2e-3 at 0.001, by 6e-3
+// at 10.
 constexpr std::size_t intervals = 512;
 
 constexpr std::size_t polar_nodes = 1024; // of the midpoint rule
