@@ -7,6 +7,7 @@
 #include "density_csv.h"
 #include "handles.h"
 #include "merl_file.h"
+#include "outliers.h"
 #include "sha256.h"
 
 using namespace smx;
@@ -105,8 +106,11 @@ smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *option
         require_pointer(brdf, "brdf");
         require_pointer(density, "density");
         const InversionOptions o = to_cpp(checked(options, SMX_INVERSION_OPTIONS_INIT, "options"));
-        *density = new smx_density_s(
-            std::make_shared<const DensityOfBrdf>(DensityOfBrdf{brdf->object, invert(*brdf->object, o)}));
+        std::shared_ptr<const Brdf> table = brdf->object;
+        if (std::optional<Brdf> clean = without_outliers(*table))
+            table = std::make_shared<const Brdf>(std::move(*clean));
+        SlopeDensity slopes = invert(*table, o);
+        *density = new smx_density_s(std::make_shared<const DensityOfBrdf>(DensityOfBrdf{table, std::move(slopes)}));
     });
 }
 

@@ -56,7 +56,8 @@ void hold_bound(ceres::Problem &problem, const Block &block) {
         problem.SetManifold(block.values, new ceres::SubsetManifold(static_cast<int>(block.free.size()), held));
 }
 
-// Variances in the free directions' ambient coordinates; false where the problem is too ill-conditioned for this method.
+// Variances in the free directions' ambient coordinates; false where the problem is too ill-conditioned for this
+// method.
 bool compute(ceres::Problem &problem, const std::vector<Block> &blocks, ceres::CovarianceAlgorithmType algorithm,
              std::vector<std::vector<double>> &variances) {
     ceres::Covariance::Options options;
@@ -79,7 +80,7 @@ bool compute(ceres::Problem &problem, const std::vector<Block> &blocks, ceres::C
 
 } // namespace
 
-Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit) {
+Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit, double scale) {
     PerLobeProblem posed(levels, fit);
     const std::vector<Block> blocks = blocks_of(posed.unknowns(), fit);
     std::size_t free = 0, samples = 0;
@@ -92,8 +93,9 @@ Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFi
     posed.problem().Evaluate({}, &half_square, nullptr, nullptr, nullptr);
 
     std::vector<std::vector<double>> variances;
-    if (free == 0 || samples <= free || (!compute(posed.problem(), blocks, ceres::SPARSE_QR, variances) &&
-                                         !compute(posed.problem(), blocks, ceres::DENSE_SVD, variances)))
+    if (free == 0 || samples <= free ||
+        (!compute(posed.problem(), blocks, ceres::SPARSE_QR, variances) &&
+         !compute(posed.problem(), blocks, ceres::DENSE_SVD, variances)))
         return {};
     const double residual_variance = 2 * half_square / static_cast<double>(samples - free);
     const auto deviation = [&](std::size_t block, std::size_t k) {
@@ -105,8 +107,10 @@ Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFi
         result.alpha.push_back(log_alpha == Deviations::held ? log_alpha : fit.alphas[k] * log_alpha);
         result.curves.emplace_back();
         for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t j = 0; j < curve_coefficients; ++j)
-                result.curves[k][c].push_back(deviation(1 + c * curve_coefficients + j, k));
+            for (std::size_t j = 0; j < curve_coefficients; ++j) {
+                const double coefficient = deviation(1 + c * curve_coefficients + j, k);
+                result.curves[k][c].push_back(coefficient == Deviations::held ? coefficient : scale * coefficient);
+            }
     }
     return result;
 }

@@ -11,30 +11,8 @@ namespace {
 
 constexpr std::size_t phi_samples = 4;
 
-// A value this many times the median of its row in phi_d, and of the rows beside it, is no reflection but a fault of
-// the measurement: along phi_d measured tables vary by a few, not by tens.
-constexpr double outlier_ratio = 30.0;
-
-// Highest value that a cell of this (theta_h, theta_d) row may have.
-double row_ceiling(const Brdf &brdf, std::size_t h, std::size_t d) {
-    double ceiling = 0.0;
-    for (std::size_t beside : {h > 0 ? h - 1 : h, h, std::min(h + 1, Brdf::theta_h_count - 1)}) {
-        std::vector<double> values;
-        for (std::size_t p = 0; p < brdf.phi_d_count(); ++p) {
-            const std::size_t cell = brdf.cell(beside, d, p);
-            if (brdf.valid(cell)) values.push_back(brdf.value(0, cell) + brdf.value(1, cell) + brdf.value(2, cell));
-        }
-        if (values.empty()) continue;
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        ceiling = std::max(ceiling, outlier_ratio * *middle);
-    }
-    return ceiling;
-}
-
-bool usable(const Brdf &brdf, std::size_t cell, double ceiling) {
-    return brdf.valid(cell) && brdf.value(0, cell) + brdf.value(1, cell) + brdf.value(2, cell) <= ceiling;
-}
+// Up to theta_h = 10 degrees also half-way between two nodes: there a lobe may be no wider than their distance.
+constexpr std::size_t fine_halves = 60;
 
 // The sample half-way between nodes half / 2 and (half + 1) / 2 of theta_h.
 DirectionSample sample_at(const Brdf &brdf, std::size_t half, std::size_t d, std::size_t p) {
@@ -45,7 +23,8 @@ DirectionSample sample_at(const Brdf &brdf, std::size_t half, std::size_t d, std
     // sin(theta) dtheta of theta = u^2 pi/2 is proportional to sin(theta) u; the pole's cell is a twentieth of
     // the next one's (the integral of a linear interpolant's half cell against the trapezoid rule).
     const double first = 1.0 / (2.0 * Brdf::theta_h_count);
-    const double ring = half > 0 ? std::sin(theta_h) * u : first * first * std::numbers::pi / 2 * first / 20;
+    const double step = half > fine_halves ? 2.0 : half == fine_halves ? 1.5 : 1.0;
+    const double ring = half > 0 ? std::sin(theta_h) * u * step : first * first * std::numbers::pi / 2 * first / 20;
     s.weight = s.ci * std::sqrt(std::max(s.co, 0.0) * ring);
     return s;
 }
@@ -53,13 +32,10 @@ DirectionSample sample_at(const Brdf &brdf, std::size_t half, std::size_t d, std
 DirectionLevel make_level(const Brdf &brdf, std::size_t d) {
     DirectionLevel level{Brdf::theta_d(d), 0.0, {}};
     const std::size_t columns = brdf.phi_d_count(), stride = columns / phi_samples;
-    std::vector<double> ceilings;
-    for (std::size_t h = 0; h < Brdf::theta_h_count; ++h) ceilings.push_back(row_ceiling(brdf, h, d));
-    for (std::size_t half = 0; half < 2 * Brdf::theta_h_count - 1; ++half)
+    for (std::size_t half = 0; half < 2 * Brdf::theta_h_count - 1; half += half < fine_halves ? 1 : 2)
         for (std::size_t j = 0; j < phi_samples; ++j) {
             const std::size_t p = (j * stride + half * 7) % columns, h = half / 2, next = (half + 1) / 2;
-            if (!usable(brdf, brdf.cell(h, d, p), ceilings[h])) continue;
-            if (!usable(brdf, brdf.cell(next, d, p), ceilings[next])) continue;
+            if (!brdf.valid(brdf.cell(h, d, p)) || !brdf.valid(brdf.cell(next, d, p))) continue;
             const DirectionSample s = sample_at(brdf, half, d, p);
             if (s.ci >= min_cosine && s.co >= min_cosine) level.samples.push_back(s);
         }

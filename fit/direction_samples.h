@@ -31,9 +31,9 @@ constexpr double min_cosine = 0.02;
 // Rows of the table nearest to these angles.
 std::vector<std::size_t> table_rows(const std::vector<double> &theta_d);
 
-// Levels at the given angles theta_d, whole degrees; in each, theta_h at the table's nodes and half-way between two
-// (where the table, linear in sqrt(theta_h), is their mean), phi_d at nodes that shift from one theta_h to the next.
-// Only measured cells above the horizon; outliers are left out. Weights: weigh_levels, of a total of 1.
+// Levels at the given angles theta_d, whole degrees; in each, theta_h at the table's nodes and, near the pole,
+// half-way between two (where the table, linear in sqrt(theta_h), is their mean), phi_d at nodes that shift from one
+// theta_h to the next. Only measured cells above the horizon. Weights: weigh_levels, of a total of 1.
 std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector<double> &theta_d);
 
 // From the roots of quadrature weights to weights of residuals. A sphere under one light shows one theta_d, and its

@@ -83,22 +83,20 @@ std::vector<Rgb> DirectionalAlbedo::bound() const {
     return bound;
 }
 
-std::vector<DirectionalAlbedo::Shares> DirectionalAlbedo::shares(const std::vector<double> &alphas) const {
+std::vector<Eigen::MatrixXd> DirectionalAlbedo::shares(const std::vector<double> &alphas) const {
     const auto lobes = static_cast<Eigen::Index>(alphas.size());
-    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(curve_coefficients), lobes);
-    std::vector<Shares> all(nodes_.size(), {zero, zero});
-    for (std::size_t t = 0; t < nodes_.size(); ++t)
-        for (const Node &node : nodes_[t]) {
+    std::vector<Eigen::MatrixXd> all;
+    for (const std::vector<Node> &nodes : nodes_) {
+        all.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(curve_coefficients), lobes));
+        for (const Node &node : nodes) {
             const auto [first, weight] = curve_shares(node.theta_d);
             for (Eigen::Index k = 0; k < lobes; ++k) {
-                const LobeValue lobe = lobe_value(node.sample, alphas[static_cast<std::size_t>(k)]);
-                for (std::size_t a = 0; a < 3; ++a) {
-                    const auto j = static_cast<Eigen::Index>(first + a);
-                    all[t].value(j, k) += weight[a] * node.sample.weight * lobe.value;
-                    all[t].derivative(j, k) += weight[a] * node.sample.weight * lobe.derivative;
-                }
+                const double lobe = lobe_value(node.sample, alphas[static_cast<std::size_t>(k)]).value;
+                for (std::size_t a = 0; a < 3; ++a)
+                    all.back()(static_cast<Eigen::Index>(first + a), k) += weight[a] * node.sample.weight * lobe;
             }
         }
+    }
     return all;
 }
 

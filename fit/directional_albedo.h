@@ -28,12 +28,9 @@ class DirectionalAlbedo {
     // What a fit may reflect at most: 1, or where the table itself has more, the table's.
     std::vector<Rgb> bound() const;
 
-    // Of lobes of these alphas with a curve of a single coefficient 1: [coefficient][lobe], and its derivative by the
-    // lobe's log alpha. A fit's albedo is the sum over its coefficients times these.
-    struct Shares {
-        Eigen::MatrixXd value, derivative;
-    };
-    std::vector<Shares> shares(const std::vector<double> &alphas) const;
+    // By theta_o, of lobes of these alphas with a curve of a single coefficient 1: [coefficient][lobe]. A fit's albedo
+    // is the sum over its coefficients times these.
+    std::vector<Eigen::MatrixXd> shares(const std::vector<double> &alphas) const;
 
   private:
     struct Node {

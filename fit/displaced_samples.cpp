@@ -12,8 +12,13 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr std::size_t facet_azimuths = 36;           // about wh, per theta_h node
-constexpr std::size_t tilts = 16, tilt_azimuths = 6; // of the macro surface's normal about wh
+// How finely a displaced surface is integrated and sampled: X's lobe is about alpha wide in angle.
+struct Resolution {
+    std::size_t facet_azimuths;       // about wh, per theta_h node; divides 360
+    std::size_t tilts, tilt_azimuths; // of the macro surface's normal about wh
+};
+
+Resolution resolution_for(double alpha) { return alpha >= 0.25 ? Resolution{36, 16, 6} : Resolution{180, 40, 6}; }
 
 // Facets about wh = z under light and view at theta_d from it in the plane y = 0.
 struct Facets {
@@ -25,9 +30,9 @@ Eigen::Vector3d direction(double theta, double phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-Facets facets_at(const Brdf &brdf, std::size_t d) {
-    constexpr std::size_t step = 360 / facet_azimuths;
-    constexpr auto count = static_cast<Eigen::Index>(Brdf::theta_h_count * facet_azimuths);
+Facets facets_at(const Brdf &brdf, std::size_t d, std::size_t facet_azimuths) {
+    const std::size_t step = 360 / facet_azimuths;
+    const auto count = static_cast<Eigen::Index>(Brdf::theta_h_count * facet_azimuths);
     const Eigen::Vector3d wi = direction(Brdf::theta_d(d), 0.0), wo = direction(-Brdf::theta_d(d), 0.0);
     Facets facets;
     facets.normal.resize(count, 3);
@@ -37,7 +42,7 @@ Facets facets_at(const Brdf &brdf, std::size_t d) {
             const std::size_t degrees = a * step + h % step; // shifted from ring to ring
             const auto row = static_cast<Eigen::Index>(h * facet_azimuths + a);
             const Eigen::Vector3d wm = direction(Brdf::theta_h(h), static_cast<double>(degrees) * pi / 180);
-            const double area = Brdf::theta_h_weight(h) * 2 * pi / facet_azimuths;
+            const double area = Brdf::theta_h_weight(h) * 2 * pi / static_cast<double>(facet_azimuths);
             const double cosines = std::max(wi.dot(wm), 0.0) * std::max(wo.dot(wm), 0.0);
             // Seen from the facet, wh is at the azimuth opposite to its own about wh: phi_d is pi minus that.
             const std::size_t cell = brdf.cell(h, d, (540 - degrees) % brdf.phi_d_count());
@@ -57,12 +62,13 @@ Eigen::Vector3d reflected_by(const Facets &facets, const Eigen::Vector3d &n, dou
 }
 
 DirectionLevel displaced_level(const Brdf &brdf, std::size_t d, double alpha) {
-    const Facets facets = facets_at(brdf, d);
+    const auto [facet_azimuths, tilts, tilt_azimuths] = resolution_for(alpha);
+    const Facets facets = facets_at(brdf, d, facet_azimuths);
     DirectionLevel level{Brdf::theta_d(d), 0.0, {}};
     for (std::size_t t = 0; t < tilts; ++t)
         for (std::size_t a = 0; a < tilt_azimuths; ++a) {
-            const double theta_h = (static_cast<double>(t) + 0.5) / tilts * pi / 2;
-            const double phi = (static_cast<double>(a) + 0.5) / tilt_azimuths * pi;
+            const double theta_h = (static_cast<double>(t) + 0.5) / static_cast<double>(tilts) * pi / 2;
+            const double phi = (static_cast<double>(a) + 0.5) / static_cast<double>(tilt_azimuths) * pi;
             DirectionSample s = direction_at(theta_h, level.theta_d, pi - phi);
             if (s.ci < min_cosine || s.co < min_cosine) continue;
             const double sigma_i = beckmann_sigma(s.ci, alpha), sigma_o = beckmann_sigma(s.co, alpha);

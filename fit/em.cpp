@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "em_starts.h"
 #include "error.h"
 
 namespace smx {
@@ -31,36 +34,14 @@ std::vector<double> log_lobes(const std::vector<Lobe> &lobes, double s) {
 
 double bounded_alpha(double mean_s) { return std::clamp(std::sqrt(mean_s), min_alpha, max_alpha); }
 
-// Equal shares of the mass in order of slope, each lobe with its share's mean squared slope.
-std::vector<Lobe> quantile_start(const SlopeDensity &density, unsigned count) {
-    std::vector<double> mass(count, 0.0), moment(count, 0.0);
-    double before = 0.0;
-    for (std::size_t j = 0; j < density.mass.size(); ++j) {
-        // A node that reaches over several shares is split among them.
-        const double from = before * count, to = (before + density.mass[j]) * count;
-        for (auto k = static_cast<unsigned>(from); k < count && k < to; ++k) {
-            const double part = std::min(to, k + 1.0) - std::max(from, static_cast<double>(k));
-            mass[k] += part;
-            moment[k] += part * density.slope[j] * density.slope[j];
-        }
-        before += density.mass[j];
-    }
-    std::vector<Lobe> lobes;
-    for (unsigned k = 0; k < count; ++k)
-        if (mass[k] > 0.0) lobes.push_back({1.0 / count, bounded_alpha(moment[k] / mass[k])});
-    return lobes;
-}
-
-// One step; returns the mean log likelihood of the lobes it started from.
-double em_step(std::vector<Lobe> &lobes, const SlopeDensity &density) {
+// One step of expectation and maximisation.
+void em_step(std::vector<Lobe> &lobes, const SlopeDensity &density) {
     std::vector<double> mass(lobes.size(), 0.0), moment(lobes.size(), 0.0);
-    double likelihood = 0.0;
     for (std::size_t j = 0; j < density.mass.size(); ++j) {
         if (density.mass[j] <= 0.0) continue;
         const double s = density.slope[j] * density.slope[j];
         const std::vector<double> logs = log_lobes(lobes, s);
         const double total = log_sum_exp(logs);
-        likelihood += density.mass[j] * total;
         for (std::size_t k = 0; k < lobes.size(); ++k) {
             const double share = density.mass[j] * std::exp(logs[k] - total);
             mass[k] += share;
@@ -71,7 +52,30 @@ double em_step(std::vector<Lobe> &lobes, const SlopeDensity &density) {
     for (std::size_t k = 0; k < lobes.size(); ++k)
         if (mass[k] > dead_weight) next.push_back({mass[k], bounded_alpha(moment[k] / mass[k])});
     lobes = std::move(next);
-    return likelihood;
+}
+
+constexpr unsigned screening_iterations = 50; // of each start, before the best goes on
+constexpr std::uint64_t cluster_seeds[] = {1, 2};
+
+std::vector<std::vector<Lobe>> starts(const SlopeDensity &density, unsigned lobes) {
+    std::vector<std::vector<Lobe>> all = {quantile_start(density, lobes)};
+    for (std::uint64_t seed : cluster_seeds) all.push_back(cluster_start(density, lobes, seed));
+    std::erase_if(all, [](const std::vector<Lobe> &start) { return start.empty(); });
+    for (std::vector<Lobe> &start : all) canonicalise(start);
+    return all;
+}
+
+// Steps until one gains less than the tolerance, or there were max_iterations in all.
+void climb(EmResult &run, const SlopeDensity &density, double tolerance, unsigned max_iterations) {
+    double before = mean_log_likelihood(run.lobes, density);
+    for (bool gains = true; gains && run.iterations < max_iterations; ++run.iterations) {
+        em_step(run.lobes, density);
+        run.log_likelihood = mean_log_likelihood(run.lobes, density);
+        run.largest_fall = std::max(run.largest_fall, before - run.log_likelihood);
+        gains = run.log_likelihood - before >= tolerance;
+        before = run.log_likelihood;
+    }
+    run.log_likelihood = before;
 }
 
 // The pair k, k + 1 as one lobe of the same mass and mean squared slope.
@@ -118,18 +122,16 @@ void merge_redundant(std::vector<Lobe> &lobes, const SlopeDensity &density) {
 }
 
 EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations) {
-    EmResult result;
-    result.lobes = quantile_start(density, lobes);
-    if (result.lobes.empty()) fail(Fault::NoSolution, "the slope density has no mass");
-    double before = -std::numeric_limits<double>::infinity();
-    for (bool gains = true; gains && result.iterations < max_iterations; ++result.iterations) {
-        const double likelihood = em_step(result.lobes, density);
-        gains = likelihood - before >= tolerance;
-        before = likelihood;
+    EmResult best;
+    for (std::vector<Lobe> &start : starts(density, lobes)) {
+        EmResult run{std::move(start), 0, -std::numeric_limits<double>::infinity(), 0.0};
+        climb(run, density, tolerance, std::min(screening_iterations, max_iterations));
+        if (best.lobes.empty() || run.log_likelihood > best.log_likelihood) best = std::move(run);
     }
-    canonicalise(result.lobes);
-    result.log_likelihood = mean_log_likelihood(result.lobes, density);
-    return result;
+    if (best.lobes.empty()) fail(Fault::NoSolution, "the slope density has no mass");
+    climb(best, density, tolerance, max_iterations);
+    canonicalise(best.lobes);
+    return best;
 }
 
 } // namespace smx

@@ -12,10 +12,12 @@ struct EmResult {
     std::vector<Lobe> lobes; // canonical order; fewer than asked for where lobes died
     unsigned iterations = 0;
     double log_likelihood = 0.0;
+    double largest_fall = 0.0; // of the likelihood in a step: EM never falls but for roundings and lobes that die
 };
 
-// Starts from quantiles of the mass; stops when the mean log likelihood gains less than `tolerance`, or after
-// max_iterations. Throws NoSolution for a density without mass.
+// From the best of several starts (em_starts.h): each climbs 50 steps, then the one of highest likelihood goes on,
+// until the mean log likelihood gains less than `tolerance` in a step, or after max_iterations. Throws NoSolution for a
+// density without mass.
 EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations);
 
 // Joins neighbours where one lobe describes the density as well: lobes that a fit had to spare end up side by side.

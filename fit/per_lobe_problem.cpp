@@ -13,8 +13,8 @@ namespace {
 using Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// A residual of the albedo's excess beside the data's, whose sum of squares is that of a relative error: an excess of
-// 0.001 weighs as much as 1 % of error everywhere.
+// Of the albedo's relative excess, beside residuals whose sum of squares is that of a relative error: an excess of 0.1
+// % weighs as much as 1 % of error everywhere.
 constexpr double energy_penalty = 10.0;
 
 // One level and channel. Parameters: log alphas, then the lobes' three coefficients that make the curve at theta_d.
@@ -76,32 +76,26 @@ class RoughnessResiduals : public ceres::CostFunction {
     std::vector<double> scales_;
 };
 
-// What the albedo towards one direction has beyond its bound. Parameters: log alphas, then all coefficients.
+// What the albedo towards one direction has beyond its bound. Parameters: all coefficients of one channel.
 class EnergyResidual : public ceres::CostFunction {
   public:
-    EnergyResidual(const DirectionalAlbedo::Shares &shares, int lobes, double bound) : shares_(shares), bound_(bound) {
-        mutable_parameter_block_sizes()->assign(1 + curve_coefficients, lobes);
+    EnergyResidual(Eigen::MatrixXd shares, double bound) : shares_(std::move(shares)), bound_(bound) {
+        mutable_parameter_block_sizes()->assign(curve_coefficients, static_cast<int>(shares_.cols()));
         set_num_residuals(1);
     }
     bool Evaluate(double const *const *p, double *residuals, double **jacobians) const override {
-        const Eigen::Index lobes = shares_.value.cols();
         double albedo = 0.0;
-        for (Eigen::Index j = 0; j < shares_.value.rows(); ++j)
-            for (Eigen::Index k = 0; k < lobes; ++k) albedo += shares_.value(j, k) * p[1 + j][k];
-        const double pull = albedo > bound_ ? energy_penalty : 0.0;
+        for (Eigen::Index j = 0; j < shares_.rows(); ++j)
+            for (Eigen::Index k = 0; k < shares_.cols(); ++k) albedo += shares_(j, k) * p[j][k];
+        const double pull = albedo > bound_ ? energy_penalty / bound_ : 0.0;
         residuals[0] = pull * (albedo - bound_);
-        if (!jacobians) return true;
-        if (jacobians[0]) std::fill_n(jacobians[0], lobes, 0.0);
-        for (Eigen::Index j = 0; j < shares_.value.rows(); ++j)
-            for (Eigen::Index k = 0; k < lobes; ++k) {
-                if (jacobians[0]) jacobians[0][k] += pull * shares_.derivative(j, k) * p[1 + j][k];
-                if (jacobians[1 + j]) jacobians[1 + j][k] = pull * shares_.value(j, k);
-            }
+        for (Eigen::Index j = 0; jacobians && j < shares_.rows(); ++j)
+            for (Eigen::Index k = 0; jacobians[j] && k < shares_.cols(); ++k) jacobians[j][k] = pull * shares_(j, k);
         return true;
     }
 
   private:
-    const DirectionalAlbedo::Shares &shares_;
+    Eigen::MatrixXd shares_;
     double bound_;
 };
 
@@ -119,7 +113,8 @@ Unknowns::Unknowns(const PerLobeFit &fit) {
 PerLobeFit Unknowns::fit() const {
     PerLobeFit out;
     for (std::size_t k = 0; k < log_alphas.size(); ++k) {
-        out.alphas.push_back(std::clamp(std::exp(log_alphas[k]), min_alpha, max_alpha)); // exp(log(bound)) may round out
+        out.alphas.push_back(
+            std::clamp(std::exp(log_alphas[k]), min_alpha, max_alpha)); // exp(log(bound)) may round out
         out.curves.emplace_back();
         for (std::size_t c = 0; c < 3; ++c)
             for (const std::vector<double> &lobes : values[c]) out.curves[k][c].push_back(std::max(lobes[k], 0.0));
@@ -128,28 +123,23 @@ PerLobeFit Unknowns::fit() const {
 }
 
 PerLobeProblem::PerLobeProblem(const std::vector<DirectionLevel> &levels, const PerLobeFit &start,
-                               const DirectionalAlbedo *albedo)
-    : unknowns_(start), levels_(levels), albedo_(albedo) {
-    if (albedo_) albedo_bound_ = albedo_->bound();
-    PrepareForEvaluation(true, true);
+                               const std::vector<EnergyBound> &energy)
+    : unknowns_(start), levels_(levels) {
+    levels_.update(unknowns_.log_alphas);
     ceres::Problem::Options options;
     options.evaluation_callback = this;
     problem_ = std::make_unique<ceres::Problem>(options);
     for (std::size_t c = 0; c < 3; ++c) {
         add_levels(c);
         add_roughness(c);
-        if (albedo_) add_energy(c);
+        for (const EnergyBound &bound : energy) add_energy(bound, c);
     }
     add_bounds();
+    if (!energy.empty()) problem_->SetParameterBlockConstant(unknowns_.log_alphas.data());
 }
 
 void PerLobeProblem::PrepareForEvaluation(bool, bool new_point) {
-    if (!new_point) return;
-    levels_.update(unknowns_.log_alphas);
-    if (!albedo_) return;
-    const std::vector<DirectionalAlbedo::Shares> shares = albedo_->shares(unknowns_.fit().alphas);
-    if (albedo_shares_.empty()) albedo_shares_ = shares;
-    for (std::size_t t = 0; t < shares.size(); ++t) albedo_shares_[t] = shares[t]; // in place: residuals refer to them
+    if (new_point) levels_.update(unknowns_.log_alphas);
 }
 
 void PerLobeProblem::add_levels(std::size_t channel) {
@@ -175,13 +165,10 @@ void PerLobeProblem::add_roughness(std::size_t channel) {
                                    values[j + 2].data());
 }
 
-void PerLobeProblem::add_energy(std::size_t channel) {
-    std::vector<double *> blocks = {unknowns_.log_alphas.data()};
+void PerLobeProblem::add_energy(const EnergyBound &energy, std::size_t channel) {
+    std::vector<double *> blocks;
     for (std::vector<double> &lobes : unknowns_.values[channel]) blocks.push_back(lobes.data());
-    const int lobes = static_cast<int>(levels_.lobes());
-    for (std::size_t t = 0; t < albedo_shares_.size(); ++t)
-        problem_->AddResidualBlock(new EnergyResidual(albedo_shares_[t], lobes, albedo_bound_[t][channel]), nullptr,
-                                   blocks);
+    problem_->AddResidualBlock(new EnergyResidual(energy.shares, energy.bound[channel]), nullptr, blocks);
 }
 
 void PerLobeProblem::add_bounds() {

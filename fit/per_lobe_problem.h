@@ -9,7 +9,6 @@
 
 #include "ceres_solver.h"
 #include "compressed_levels.h"
-#include "directional_albedo.h"
 #include "per_lobe_fit.h"
 
 namespace smx {
@@ -23,11 +22,18 @@ struct Unknowns {
     PerLobeFit fit() const;
 };
 
+// A bound of the directional albedo at one theta_o: of the lobes' shares (DirectionalAlbedo::shares), by channel.
+struct EnergyBound {
+    Eigen::MatrixXd shares;
+    Rgb bound;
+};
+
 class PerLobeProblem : private ceres::EvaluationCallback {
   public:
-    // `levels` and `albedo` must outlive the problem; albedo null: the energy is not bounded.
+    // `levels` must outlive the problem. Where there are bounds of the energy the alphas, which the shares are of, are
+    // held.
     PerLobeProblem(const std::vector<DirectionLevel> &levels, const PerLobeFit &start,
-                   const DirectionalAlbedo *albedo = nullptr);
+                   const std::vector<EnergyBound> &energy = {});
 
     ceres::Problem &problem() { return *problem_; }
     Unknowns &unknowns() { return unknowns_; }
@@ -36,14 +42,11 @@ class PerLobeProblem : private ceres::EvaluationCallback {
     void PrepareForEvaluation(bool, bool new_point) override;
     void add_levels(std::size_t channel);
     void add_roughness(std::size_t channel);
-    void add_energy(std::size_t channel);
+    void add_energy(const EnergyBound &energy, std::size_t channel);
     void add_bounds();
 
     Unknowns unknowns_;
     CompressedLevels levels_;
-    const DirectionalAlbedo *albedo_;
-    std::vector<Rgb> albedo_bound_;
-    std::vector<DirectionalAlbedo::Shares> albedo_shares_;
     std::unique_ptr<ceres::Problem> problem_;
 };
 

@@ -8,7 +8,7 @@ const std::vector<Lobe> &Proposal::lobes() {
     std::call_once(fitted_, [&] {
         FitOptions options;
         options.model = Model::Shared;
-        lobes_ = fit_material(*brdf_, invert(*brdf_, {}), options).lobes;
+        lobes_ = fit_material(invert(*brdf_, {}), options).lobes;
     });
     return lobes_;
 }

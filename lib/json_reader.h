@@ -17,6 +17,7 @@ class JsonReader {
     std::size_t array_size() const;
     void finish() const; // no member of this object was left unread
 
+    bool is_null() const { return value_.is_null(); }
     double number() const;
     unsigned count() const;
     std::string string() const;

@@ -3,6 +3,7 @@
 //   per-lobe  f = sum_k F_k(theta_d) D_k(wh) G2_k(wi, wo) / (4 cos_i cos_o)
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ struct Lobe {
     double alpha;
 };
 
+// Standard deviations of the per-lobe model's parameters; empty where there are none.
+struct Deviations {
+    static constexpr double held = -1.0; // at a bound: the parameter was not free
+
+    std::vector<double> alpha;                              // by lobe
+    std::vector<std::array<std::vector<double>, 3>> curves; // of the curves' coefficients: by lobe, channel
+};
+
+// Share of the light from a direction that is reflected: of the table and of the fit, by theta_o, channel.
+struct AlbedoReport {
+    std::vector<double> theta_o; // radians
+    std::vector<Rgb> table, fit;
+};
+
 struct FitReport {
     unsigned inversion_iterations = 0, em_iterations = 0, refine_iterations = 0;
     double log_likelihood_em = 0.0, log_likelihood = 0.0;
@@ -30,8 +45,16 @@ struct FitReport {
     // Of the per-lobe model.
     unsigned curve_iterations = 0;
     double brdf_residual_start = 0.0, brdf_residual = 0.0;
+    double displaced_share = 0.0; // of the displaced surfaces in the residuals, beside the base's 1
     std::string curve_message;
-    double seconds = 0.0;
+    // relRMSE on spheres under three lights, estimated on the host: of the base alone, mean over displaced ones, and
+    // the latter of the shared model with as many lobes.
+    double base_relrmse = 0.0, displaced_relrmse = 0.0, displaced_relrmse_shared = 0.0;
+    std::string choice;         // why this number of lobes or this start, where there was a choice
+    double seconds = 0.0;       // of EM, the start and the refinements
+    double check_seconds = 0.0; // of the figures about the fit: the three above and the two below
+    Deviations deviations;
+    AlbedoReport albedo;
 };
 
 struct Material {

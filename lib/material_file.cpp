@@ -8,6 +8,7 @@
 
 #include "atomic_file.h"
 #include "error.h"
+#include "fit_report_file.h"
 #include "json_reader.h"
 
 namespace smx {
@@ -18,43 +19,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char *format_name = "slopemix-material";
-constexpr unsigned format_version = 1;
-constexpr const char *channel_names[] = {"r", "g", "b"};
-
-ordered_json report_to_json(const FitReport &r) {
-    return {{"inversion_iterations", r.inversion_iterations},
-            {"em_iterations", r.em_iterations},
-            {"refine_iterations", r.refine_iterations},
-            {"log_likelihood_em", r.log_likelihood_em},
-            {"log_likelihood", r.log_likelihood},
-            {"residual_em", r.residual_em},
-            {"residual", r.residual},
-            {"refine_message", r.refine_message},
-            {"curve_iterations", r.curve_iterations},
-            {"brdf_residual_start", r.brdf_residual_start},
-            {"brdf_residual", r.brdf_residual},
-            {"curve_message", r.curve_message},
-            {"seconds", r.seconds}};
-}
-
-FitReport report_from_json(JsonReader in) {
-    FitReport r;
-    r.inversion_iterations = in.member("inversion_iterations").count();
-    r.em_iterations = in.member("em_iterations").count();
-    r.refine_iterations = in.member("refine_iterations").count();
-    r.log_likelihood_em = in.member("log_likelihood_em").number();
-    r.log_likelihood = in.member("log_likelihood").number();
-    r.residual_em = in.member("residual_em").number();
-    r.residual = in.member("residual").number();
-    r.seconds = in.member("seconds").number();
-    r.refine_message = in.member("refine_message").string();
-    r.curve_iterations = in.member("curve_iterations").count();
-    r.brdf_residual_start = in.member("brdf_residual_start").number();
-    r.brdf_residual = in.member("brdf_residual").number();
-    r.curve_message = in.member("curve_message").string();
-    in.finish();
-    return r;
-}
+constexpr unsigned format_version = 2;
 
 ordered_json curves_to_json(const FresnelCurves &curves) {
     ordered_json out;
@@ -87,12 +52,6 @@ std::vector<Lobe> lobes_from_json(const JsonReader &in) {
         lobe.finish();
     }
     return lobes;
-}
-
-std::vector<double> numbers_from_json(const JsonReader &in) {
-    std::vector<double> numbers;
-    for (std::size_t k = 0; k < in.array_size(); ++k) numbers.push_back(in.element(k).number());
-    return numbers;
 }
 
 std::vector<FresnelCurves> fresnel_from_json(const JsonReader &in) {
@@ -144,6 +103,10 @@ void check_values(const Material &m) {
     double total = 0.0;
     for (const Lobe &lobe : m.lobes) total += lobe.weight;
     if (std::abs(total - 1.0) > 1e-9) fail(Fault::BadFormat, "$.lobes: the weights sum to ", total, ", not 1");
+    const Deviations &deviations = m.report.deviations;
+    if (deviations.alpha.size() != deviations.curves.size() ||
+        (!deviations.alpha.empty() && deviations.alpha.size() != m.lobes.size()))
+        fail(Fault::BadFormat, "$.fit.deviations: must be of ", m.lobes.size(), " lobes, or empty");
     for (std::size_t k = 1; k < m.lobes.size(); ++k)
         if (m.lobes[k].alpha < m.lobes[k - 1].alpha)
             fail(Fault::BadFormat, "$.lobes[", k, "].alpha is ", m.lobes[k].alpha, ", below the lobe before it");
