@@ -398,6 +398,14 @@ SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *sce
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
                                      smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
 
+/* f of the measured table in 1/sr, NOT times a cosine, for `count` pairs of directions. wi, wo, f: [count][3], packed.
+ * Half and difference angles of the pair, phi_d modulo pi, values past the last theta_h or theta_d are the last node's
+ * (smx_lookup; a table over the full azimuth is the mean of its halves). 0 where either direction is not above the
+ * surface. Not normalised: directions must be unit vectors. The table goes to the device at every call: give many pairs
+ * at once. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
+SMX_API smx_status smx_brdf_eval(smx_context context, smx_brdf brdf, smx_lookup lookup, size_t count, const float *wi,
+                                 const float *wo, float *f);
+
 /* ------------------------------------------------------------------------------------------------------------- images */
 
 /* rgba: [height][width][4], copied, or NULL for a black image with alpha 0. Sides 1..16384.
