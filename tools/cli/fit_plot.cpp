@@ -108,7 +108,8 @@ std::string density_chart(const Density &density, const std::vector<smx_lobe> &l
         y.see(p22[k]);
     }
 
-    std::string sum, curves;
+    const std::string sum_style = std::string("linewidth 2.2 linecolor '") + sum_colour + '\'';
+    std::string sum, curves; // the sum is drawn last, on top, but stands first in the legend
     for (std::size_t k = 0; k < lobes.size(); ++k) {
         sum += (k ? "+" : "") + lobe_formula(lobes[k]);
         curves += ", " + lobe_formula(lobes[k]) + " linewidth 1.4 linecolor '" + shades[k] + "' title '" +
@@ -118,11 +119,11 @@ std::string density_chart(const Density &density, const std::vector<smx_lobe> &l
            "set logscale xy\nset format xy '10^{%T}'\nset xlabel 'slope, tan θ'\nset ylabel 'p_{22}, per unit "
            "slope²'\n" +
            log_range("x", x, 8.0) + log_range("y", y, 12.0) +
-           "set samples 1000\nset key at screen 0.72, screen 0.925 left top Left reverse maxrows 18\nplot $density "
-           "using 1:2 "
-           "with points pointtype 7 pointsize 0.35 linecolor '" +
-           measured_colour + "' title 'table', " + sum + " linewidth 2.2 linecolor '" + sum_colour +
-           "' title 'all lobes'" + ", 1/0 linecolor '#ffffff' title 'α of each:'" + curves + '\n';
+           "set samples 1000\nset key at screen 0.72, screen 0.925 left top Left reverse maxrows 18\n"
+           "plot $density using 1:2 with points pointtype 7 pointsize 0.35 linecolor '" +
+           measured_colour + "' title 'table', keyentry with lines " + sum_style +
+           " title 'all lobes', keyentry with lines linecolor '#ffffff' title 'α of each:'" + curves + ", " + sum +
+           " with lines " + sum_style + '\n';
 }
 
 std::string fresnel_charts(const Curves &curves, const std::vector<std::string> &shades) {
@@ -137,10 +138,10 @@ std::string fresnel_charts(const Curves &curves, const std::vector<std::string> 
     }
     std::string charts = chart_data("fresnel", rows) +
                          "unset key\nunset logscale x\nset format x '%g'\nset xrange [0:90]\nset xtics 15\nset xlabel "
-                         "'θ_d in degrees'\n" +
-                         log_range("y", y, 5.0);
+                         "'θ_d, degrees'\n" +
+                         log_range("y", y, 4.0);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        charts += place_in_row(c, 0.385, 0.595) + title(std::string("Fresnel curves, ") + channels[c]) +
+        charts += place_in_row(c, 0.4, 0.605) + title(std::string("Fresnel curves, ") + channels[c]) +
                   (c == 0 ? "set ylabel 'F'\n" : "unset ylabel\n") + "plot ";
         for (std::size_t set = 0; set < curves.sets; ++set)
             charts += (set ? ", " : "") + std::string("$fresnel using 1:") + std::to_string(2 + 3 * set + c) +
@@ -155,14 +156,16 @@ std::string slice_charts(const std::vector<std::vector<double>> &rows) {
     for (const std::vector<double> &row : rows)
         for (std::size_t c = 1; c <= 3; ++c) measured.see(row[c]);
     std::string charts = chart_data("slice", rows) +
-                         "set xrange [-90:90]\nset xtics 30\nset xlabel 'θ_o in degrees'\n" +
-                         log_range("y", measured, 9.0) + "set key top left Left reverse\n";
+                         "set xrange [-90:90]\nset xtics 30\nset xlabel 'θ_o, degrees, positive on the mirror side'\n" +
+                         log_range("y", measured, 9.0) +
+                         "set key default\nset key at screen 0.508, screen 0.328 center center horizontal textcolor "
+                         "'#333333' samplen 1.6 maxrows 1 Left reverse width -1\n";
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const auto curve = [&](std::size_t model, const std::string &style, const char *name) {
             return "$slice using 1:" + std::to_string(2 + 3 * model + c) + " with lines " + style + " title '" + name +
                    '\'';
         };
-        charts += place_in_row(c, 0.06, 0.27) + title(std::string("θ_i = 45°, plane of incidence, ") + channels[c]) +
+        charts += place_in_row(c, 0.06, 0.265) + title(std::string("BRDF slice at 45° incidence, ") + channels[c]) +
                   (c == 0 ? "set ylabel 'f in 1/sr'\n" : "unset ylabel\nunset key\n") + "plot " +
                   curve(0, std::string("linewidth 3.5 linecolor '#bbbbbb'"), "measured") + ", " +
                   curve(1, std::string("linewidth 1.5 linecolor '") + shared_colour + '\'', "shared") + ", " +
