@@ -229,3 +229,19 @@ TEST(EvalTable, WritesExactlyItsResults) {
         for (std::size_t k = 0; k < f.size(); ++k) ASSERT_EQ(f[k] == canary, k >= 3 * count) << k << " of " << count;
     }
 }
+
+TEST(EvalTable, EveryVectorWidth) {
+    const test::Brdf brdf = test::make_brdf(random_table(180));
+    const Directions d = random_directions();
+    const std::vector<float> wanted = eval(brdf, Lookup::linear, d);
+    for (const std::uint32_t width : {1u, 4u, 8u, 16u}) {
+        smx_context_options options = SMX_CONTEXT_OPTIONS_INIT;
+        options.vector_width = width;
+        test::Context context;
+        ASSERT_SMX_OK(smx_context_create(&options, context.out()));
+        std::vector<float> f(3 * d.count());
+        ASSERT_SMX_OK(smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, d.count(), d.wi.data(), d.wo.data(), f.data()));
+        for (std::size_t k = 0; k < f.size(); ++k)
+            ASSERT_TRUE(test::is_close(f[k], wanted[k], random_table_tolerance, 0.0)) << width << " lanes, value " << k;
+    }
+}
