@@ -1,8 +1,10 @@
-// smx_brdf_*, smx_density_*
+// smx_brdf_*, smx_density_*, but for figures about tables (errors_api.cpp)
 #include <algorithm>
 #include <vector>
 
+#include "analytic.h"
 #include "builtin.h"
+#include "density_csv.h"
 #include "handles.h"
 #include "merl_file.h"
 #include "sha256.h"
@@ -14,6 +16,8 @@ namespace {
 std::shared_ptr<const Brdf> open_brdf(const std::string &source) {
     if (source.starts_with(builtin_prefix))
         return std::make_shared<const Brdf>(make_builtin(source.substr(builtin_prefix.size())));
+    if (source.starts_with(analytic_prefix))
+        return std::make_shared<const Brdf>(make_analytic(source.substr(analytic_prefix.size())));
     return std::make_shared<const Brdf>(read_merl(source));
 }
 
@@ -27,6 +31,10 @@ std::shared_ptr<const Brdf> brdf_from_values(const char *name, uint32_t phi_d, c
 
 InversionOptions to_cpp(const smx_inversion_options &o) {
     return {static_cast<MaskingKernel>(o.masking_kernel), o.tolerance, o.max_iterations};
+}
+
+smx_density new_density(SlopeDensity density) {
+    return new smx_density_s(std::make_shared<const DensityOfBrdf>(DensityOfBrdf{nullptr, std::move(density)}));
 }
 
 void copy_nodes(const std::vector<double> &from, double *to) {
@@ -102,6 +110,31 @@ smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *option
     });
 }
 
+smx_status smx_density_from_samples(const char *name, smx_density_kind kind, size_t count, const double *theta,
+                                    const double *values, smx_density *density) {
+    return guarded([&] {
+        require_pointer(name, "name");
+        require_pointer(theta, "theta");
+        require_pointer(values, "values");
+        require_pointer(density, "density");
+        require(count >= 2 && count <= SMX_MAX_DENSITY_SAMPLES, "count is ", count, "; it must be 2..",
+                SMX_MAX_DENSITY_SAMPLES);
+        SlopeDensity made =
+            density_from_samples({static_cast<DensityKind>(kind), {theta, theta + count}, {values, values + count}});
+        made.name = name;
+        made.source = "memory";
+        *density = new_density(std::move(made));
+    });
+}
+
+smx_status smx_density_read_csv(const char *path, smx_density *density) {
+    return guarded([&] {
+        require_pointer(path, "path");
+        require_pointer(density, "density");
+        *density = new_density(read_density_csv(path));
+    });
+}
+
 smx_status smx_density_retain(smx_density density) { return retain(density, "density"); }
 void smx_density_release(smx_density density) { release(density); }
 
@@ -116,6 +149,7 @@ smx_status smx_density_get_info(smx_density density, smx_density_info *info) {
         info->converged = d.converged;
         info->change = d.change;
         info->alpha = d.alpha();
+        copy_text(info->sha256, d.sha256);
     });
 }
 

@@ -14,7 +14,7 @@
 namespace smx {
 
 struct DensityOfBrdf {
-    std::shared_ptr<const Brdf> brdf;
+    std::shared_ptr<const Brdf> brdf; // null for a density that is from samples
     SlopeDensity density;
 };
 

@@ -61,7 +61,8 @@ smx_status smx_material_fit(smx_density density, const smx_fit_options *options,
         require_pointer(density, "density");
         require_pointer(material, "material");
         const FitOptions o = to_cpp(checked(options, SMX_FIT_OPTIONS_INIT, "options"));
-        *material = new_handle(fit_material(*density->object->brdf, density->object->density, o));
+        const auto &[brdf, slopes] = *density->object;
+        *material = new_handle(brdf ? fit_material(*brdf, slopes, o) : fit_material(slopes, o));
     });
 }
 

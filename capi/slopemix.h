@@ -131,8 +131,8 @@ typedef struct smx_brdf_s *smx_brdf;
 
 typedef struct smx_brdf_info {
     size_t size;
-    char name[128];   /* file name without its ending, or the built-in's name */
-    char source[512]; /* path, "builtin:NAME", or "memory" */
+    char name[128];   /* file name without its ending, or what follows "builtin:" or "analytic:", with _ for / */
+    char source[512]; /* path, "builtin:NAME", "analytic:...", or "memory" */
     char sha256[65];  /* of the table's bytes as stored in a file, in hexadecimal */
     uint32_t theta_h, theta_d, phi_d;
     uint64_t cells;         /* theta_h * theta_d * phi_d */
@@ -143,10 +143,16 @@ typedef struct smx_brdf_info {
     { sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0 }
 
 /* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
- * sharp white gloss), "builtin:conductor" (one rough metal lobe). Cells with a negative channel are invalid; they are
+ * sharp white gloss), "builtin:conductor" (one rough metal lobe), or one by formula:
+ *   "analytic:beckmann,alpha=A,f0=F", "analytic:ggx,alpha=A,f0=F", "analytic:blinn-phong,exponent=E,f0=F":
+ *       f = (F + (1 - F)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o), height-correlated Smith, Schlick's Fresnel curve;
+ *       A 1e-3..10, E 0..1e6; Blinn-Phong's D = (E + 2) / (2 pi) cos^E, its projected area integrated numerically
+ *   "analytic:lambert,albedo=F": f = F / pi
+ * F is one number in 0..1, or three for r, g, b joined by slashes. Cells with a negative channel are invalid; they are
  * filled from their nearest valid neighbours so that interpolation never mixes them in.
- * Statuses: INVALID_ARGUMENT (also a built-in that does not exist), CANNOT_READ, BAD_FORMAT (dimensions, length, a NaN
- * or an infinity, no valid cell), OUT_OF_MEMORY. */
+ * Statuses: INVALID_ARGUMENT (also a built-in or a formula that does not exist, a key that is unknown, missing,
+ * repeated or out of its range), CANNOT_READ, BAD_FORMAT (dimensions, length, a NaN or an infinity, no valid cell),
+ * OUT_OF_MEMORY. */
 SMX_API smx_status smx_brdf_open(const char *path_or_builtin, smx_brdf *brdf);
 
 /* The same from memory. values: [3][90][90][phi_d] in 1/sr (not the file's scaled units), negative = invalid;
@@ -193,14 +199,35 @@ typedef struct smx_density_info {
     uint32_t fresnel_knots; /* theta_d = k pi/180, k = 0..knots-1 */
     uint32_t iterations;
     int converged;
-    double change; /* relative L1 change of the last iteration */
-    double alpha;  /* sqrt of the mean squared slope: the one-lobe fit */
+    double change;   /* relative L1 change of the last iteration */
+    double alpha;    /* sqrt of the mean squared slope: the one-lobe fit */
+    char sha256[65]; /* of the table, as smx_brdf_info has it, or of the CSV file; "" for a density from samples */
 } smx_density_info;
 #define SMX_DENSITY_INFO_INIT \
-    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0 }
+    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0, "" }
 
 /* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
 SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
+
+/* What a sampled density is over. */
+typedef enum smx_density_kind {
+    SMX_DENSITY_P22 = 0, /* the slope plane */
+    SMX_DENSITY_NDF = 1  /* normals: ndf = p22 / cos^4(theta) */
+} smx_density_kind;
+
+#define SMX_MAX_DENSITY_SAMPLES 1048576
+
+/* A density that is from no BRDF: `count` samples, 2..SMX_MAX_DENSITY_SAMPLES; theta in radians, ascending in 0..pi/2;
+ * values 0..1e30 in any unit. Both arrays are copied. Linear between the samples, level below the first, 0 beyond the
+ * last; brought to the inversion's nodes and normalised; F is 1. Such a density takes the shared model only.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (0 at every node), OUT_OF_MEMORY. */
+SMX_API smx_status smx_density_from_samples(const char *name, smx_density_kind kind, size_t count, const double *theta,
+                                            const double *values, smx_density *density);
+
+/* The same from a CSV file of two columns (docs/density-format.md), at most 16 MiB; named like the file, whose sha256
+ * goes to the materials that are fitted. Statuses: INVALID_ARGUMENT, CANNOT_READ, BAD_FORMAT (the message has the
+ * line's number), NO_SOLUTION, OUT_OF_MEMORY. */
+SMX_API smx_status smx_density_read_csv(const char *path, smx_density *density);
 SMX_API smx_status smx_density_retain(smx_density density);
 SMX_API void smx_density_release(smx_density density);
 SMX_API smx_status smx_density_get_info(smx_density density, smx_density_info *info);
@@ -261,7 +288,7 @@ typedef struct smx_material_info {
     size_t size;
     char name[128];
     char source[512];
-    char sha256[65]; /* of the source table; "" for a material made from arrays */
+    char sha256[65]; /* of the source table or file; "" for a material made from arrays */
     smx_model model;
     uint32_t lobes;
     uint32_t fresnel_knots;
@@ -272,7 +299,8 @@ typedef struct smx_material_info {
 
 /* Fits `lobes` lobes to a slope density: EM in log space, then Ceres; the shared model takes over the density's Fresnel
  * curves, the per-lobe model fits its own to the table and refines alphas and curves together.
- * Statuses: INVALID_ARGUMENT, NO_SOLUTION, OUT_OF_MEMORY. */
+ * Statuses: INVALID_ARGUMENT (also the per-lobe model, the default, for a density without a BRDF), NO_SOLUTION,
+ * OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_fit(smx_density density, const smx_fit_options *options, smx_material *material);
 
 /* What a material is made of, for smx_material_create. */
@@ -313,6 +341,56 @@ SMX_API smx_status smx_material_get_fresnel(smx_material material, double *theta
  * Statuses: INVALID_ARGUMENT, CANNOT_READ, CANNOT_WRITE, BAD_FORMAT. */
 SMX_API smx_status smx_material_load(const char *path, smx_material *material);
 SMX_API smx_status smx_material_save(smx_material material, const char *path);
+
+/* ------------------------------------------------------------------------------------------- errors in BRDF space */
+
+/* How far a model f is from a table r: roots of weighted means of squares over the table's valid cells, both orders of
+ * each pair of directions, and the three channels; docs/metrics.md has weights and sources.
+ *   l2         (f - r) cos_i, 1/sr
+ *   log        ln(1 + f cos_i) - ln(1 + r cos_i)
+ *   cube_root  (f cos_i)^(1/3) - (r cos_i)^(1/3)
+ * Those with _80 are the same without the pairs of which a direction is more than 80 degrees from the normal. */
+typedef struct smx_brdf_errors {
+    size_t size;
+    double l2, log, cube_root;
+    double l2_80, log_80, cube_root_80;
+} smx_brdf_errors;
+#define SMX_BRDF_ERRORS_INIT \
+    { sizeof(smx_brdf_errors), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 }
+
+/* Errors of `brdf` against `reference`, at the cells that are valid in both.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (no cell to compare within 80 degrees). */
+SMX_API smx_status smx_brdf_compare(smx_brdf brdf, smx_brdf reference, smx_brdf_errors *errors);
+
+/* Errors of a material, not displaced, with height-correlated masking, at the reference's valid cells; in double on the
+ * host. Same statuses. */
+SMX_API smx_status smx_material_brdf_errors(smx_material material, smx_brdf reference, smx_brdf_errors *errors);
+
+/* Models of a few parameters, to compare a mixture with:
+ * f = (f0 + (1 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
+typedef enum smx_baseline {
+    SMX_BASELINE_BECKMANN = 0,   /* one Beckmann lobe, kd = 0 */
+    SMX_BASELINE_GGX = 1,        /* one GGX lobe, kd = 0 */
+    SMX_BASELINE_GGX_LAMBERT = 2 /* one GGX lobe and a Lambertian body */
+} smx_baseline;
+
+typedef struct smx_baseline_report {
+    size_t size;
+    double alpha;         /* 1e-4..1e4 */
+    double f0[3];         /* per channel, >= 0 */
+    double kd[3];         /* per channel, >= 0 */
+    double brdf_residual; /* relative, root mean square over the fit's samples; comparable with smx_fit_report's */
+    uint32_t iterations;
+    char message[256]; /* the solver's verdict */
+    double seconds;    /* of the fit, the errors apart */
+    smx_brdf_errors errors;
+} smx_baseline_report;
+#define SMX_BASELINE_REPORT_INIT \
+    { sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, SMX_BRDF_ERRORS_INIT }
+
+/* Fits a baseline to a table: the samples, weights and robust loss of the per-lobe model's refinement, from several
+ * starts. Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
+SMX_API smx_status smx_baseline_fit(smx_brdf brdf, smx_baseline kind, smx_baseline_report *report);
 
 /* ----------------------------------------------------------------------------------------------- scene and rendering */
 

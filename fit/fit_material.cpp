@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "em.h"
 #include "error.h"
@@ -19,13 +20,14 @@ void validate(const FitOptions &o) {
             "; it must be 1..1000000");
 }
 
-Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options) {
-    validate(options);
-    const auto start = std::chrono::steady_clock::now();
+namespace {
+
+// The shared model, up to its report's time.
+Material fit_mixture(const SlopeDensity &density, const FitOptions &options) {
     Material m;
-    m.name = brdf.name();
-    m.source = brdf.source();
-    m.sha256 = brdf.sha256();
+    m.name = density.name;
+    m.source = density.source;
+    m.sha256 = density.sha256;
     m.fresnel = {density.fresnel};
     m.theta_d = uniform_knots(density.fresnel[0].size());
     m.report.inversion_iterations = density.iterations;
@@ -50,10 +52,31 @@ Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOp
     merge_redundant(m.lobes, density);
     m.report.log_likelihood = mean_log_likelihood(m.lobes, density);
     m.report.residual = hellinger(m.lobes, density);
-    if (options.model == Model::PerLobe) fit_per_lobe(brdf, m, options.refine);
+    return m;
+}
+
+Material finished(Material m, std::chrono::steady_clock::time_point start) {
     m.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     validate(m);
     return m;
+}
+
+} // namespace
+
+Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options) {
+    validate(options);
+    const auto start = std::chrono::steady_clock::now();
+    Material m = fit_mixture(density, options);
+    if (options.model == Model::PerLobe) fit_per_lobe(brdf, m, options.refine);
+    return finished(std::move(m), start);
+}
+
+Material fit_material(const SlopeDensity &density, const FitOptions &options) {
+    validate(options);
+    require(options.model == Model::Shared, "model is 1 (per-lobe), but the density ", density.source,
+            " has no BRDF to fit its curves to; it must be 0 (shared)");
+    const auto start = std::chrono::steady_clock::now();
+    return finished(fit_mixture(density, options), start);
 }
 
 } // namespace smx

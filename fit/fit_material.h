@@ -20,4 +20,7 @@ void validate(const FitOptions &options);
 // Throws NoSolution when the density cannot be fitted.
 Material fit_material(const Brdf &brdf, const SlopeDensity &density, const FitOptions &options);
 
+// A density without a table: the shared model only. Throws InvalidArgument for the other one.
+Material fit_material(const SlopeDensity &density, const FitOptions &options);
+
 } // namespace smx

@@ -14,6 +14,26 @@ namespace {
 // Far above any reflection, far below where a float's sums would overflow.
 constexpr double max_value = 1e30;
 
+// Sines and cosines of the nodes' angles, computed once.
+struct Trigonometry {
+    std::array<double, Brdf::theta_h_count> cos_h{}, sin_h{};
+    std::array<double, Brdf::theta_d_count> cos_d{}, sin_d{};
+    std::array<double, 360> cos_phi_d{};
+
+    Trigonometry() {
+        for (std::size_t k = 0; k < Brdf::theta_h_count; ++k) {
+            cos_h[k] = std::cos(Brdf::theta_h(k));
+            sin_h[k] = std::sin(Brdf::theta_h(k));
+        }
+        for (std::size_t k = 0; k < Brdf::theta_d_count; ++k) {
+            cos_d[k] = std::cos(Brdf::theta_d(k));
+            sin_d[k] = std::sin(Brdf::theta_d(k));
+        }
+        for (std::size_t k = 0; k < cos_phi_d.size(); ++k)
+            cos_phi_d[k] = std::cos(static_cast<double>(k) * std::numbers::pi / 180);
+    }
+};
+
 } // namespace
 
 Brdf::Brdf(std::string name, std::string source, std::string sha256, std::size_t phi_d_count,
@@ -56,10 +76,21 @@ double Brdf::theta_d(std::size_t k) { return static_cast<double>(k) / theta_d_co
 
 double Brdf::phi_d(std::size_t k) const { return static_cast<double>(k) * std::numbers::pi / 180; }
 
-bool Brdf::above_horizon(std::size_t h, std::size_t d, std::size_t p) const {
-    const double cos_cos = std::cos(theta_h(h)) * std::cos(theta_d(d));
-    const double sin_sin = std::sin(theta_h(h)) * std::sin(theta_d(d)) * std::cos(phi_d(p));
-    return cos_cos - sin_sin > 0.0 && cos_cos + sin_sin > 0.0;
+Cosines Brdf::cosines(std::size_t h, std::size_t d, std::size_t p) {
+    static const Trigonometry t;
+    const double cos_cos = t.cos_h[h] * t.cos_d[d], sin_sin = t.sin_h[h] * t.sin_d[d] * t.cos_phi_d[p];
+    return {cos_cos - sin_sin, cos_cos + sin_sin, t.cos_h[h], t.cos_d[d]};
+}
+
+bool Brdf::above_horizon(std::size_t h, std::size_t d, std::size_t p) {
+    const Cosines at = cosines(h, d, p);
+    return at.i > 0.0 && at.o > 0.0;
+}
+
+double Brdf::theta_h_weight(std::size_t k) {
+    constexpr double h = 1.0 / theta_h_count;
+    if (k == 0) return theta_h(1) * theta_h(1) / 10;
+    return std::sin(theta_h(k)) * std::numbers::pi * static_cast<double>(k) * h * h;
 }
 
 } // namespace smx

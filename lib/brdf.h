@@ -12,6 +12,11 @@ namespace smx {
 
 using Rgb = std::array<double, 3>;
 
+// Cosines of theta_i, theta_o, theta_h and theta_d of a direction pair: all that an isotropic lobe needs.
+struct Cosines {
+    double i, o, h, d;
+};
+
 class Brdf {
   public:
     static constexpr std::size_t theta_h_count = 90;
@@ -34,15 +39,23 @@ class Brdf {
     static double theta_d(std::size_t k);
     double phi_d(std::size_t k) const;
 
+    // Of the direction pair at the nodes, phi_d < 360. Not clamped: below the horizon they are negative.
+    static Cosines cosines(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d);
+
     // The cell's direction pair lies above the horizon.
-    bool above_horizon(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d) const;
+    static bool above_horizon(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d);
+
+    // Weight of theta_h node k in a quadrature of sin(theta) dtheta, with theta = u^2 pi/2 on equidistant u: the
+    // trapezoid rule's. That of node 0 would be zero; it gets a linear interpolant's first half cell, integral of (1 -
+    // u/h) theta dtheta, so that a mirror, whose mass is all in node 0, has mass.
+    static double theta_h_weight(std::size_t k);
 
     std::size_t invalid_cells() const { return invalid_cells_; }
     std::size_t filled_cells() const { return filled_cells_; } // invalid ones above the horizon
 
     const std::vector<double> &values() const { return values_; }
     const std::string &name() const { return name_; }
-    const std::string &source() const { return source_; } // path, "builtin:NAME" or "memory"
+    const std::string &source() const { return source_; } // path, "builtin:NAME", "analytic:..." or "memory"
     const std::string &sha256() const { return sha256_; }
 
   private:

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "clamped_cosine.h"
+#include "density_nodes.h"
 #include "error.h"
 #include "fresnel_fit.h"
 
@@ -15,32 +16,8 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr std::size_t nodes = Brdf::theta_h_count;
-
-// The table's theta_h nodes with the weights of a quadrature over theta.
-struct Nodes {
-    std::array<double, nodes> cos{}, sin{}, weight{}, slope{};
-};
-
-// theta = u^2 pi/2 on equidistant u. The densities vanish smoothly at both ends in u, where the trapezoid rule
-// converges fastest. Its weight at node 0 is zero; node 0 gets that of a linear interpolant's first half cell, integral
-// of (1 - u/h) theta dtheta, with the root mean square slope there, so that a mirror, whose mass is all in node 0, has
-// mass. A Beckmann alpha comes back to 0.44 % at 1e-3, to 0.05 % from 3e-3; below 1e-3 it is not in the table.
-Nodes make_nodes() {
-    Nodes n;
-    constexpr double h = 1.0 / nodes;
-    for (std::size_t j = 0; j < nodes; ++j) {
-        const double theta = Brdf::theta_h(j), u = static_cast<double>(j) * h;
-        n.cos[j] = std::cos(theta);
-        n.sin[j] = std::sin(theta);
-        n.weight[j] = n.sin[j] * pi * u * h;
-        n.slope[j] = n.sin[j] / n.cos[j];
-    }
-    const double first = Brdf::theta_h(1);
-    n.weight[0] = first * first / 10;
-    n.slope[0] = first * std::sqrt(10.0 / 36.0);
-    return n;
-}
+using Nodes = DensityNodes;
+constexpr std::size_t nodes = Nodes::count;
 
 // Retro-reflection f(o, o), mean over the channels and phi_d (at theta_d = 0 the azimuth has no meaning).
 std::array<double, nodes> retro_reflection(const Brdf &brdf) {
@@ -69,14 +46,10 @@ Matrix inversion_kernel(const Nodes &n, const std::array<double, nodes> &retro, 
     return kernel;
 }
 
-// Shares of the projected area, mass[j] ~ D cos, from a distribution of normals; normalises the distribution.
+// Shares of the projected area; a table without any cannot be inverted.
 std::vector<double> normalise(const Nodes &n, std::vector<double> &ndf) {
-    std::vector<double> mass(nodes);
-    for (std::size_t j = 0; j < nodes; ++j) mass[j] = 2 * pi * n.weight[j] * n.cos[j] * ndf[j];
-    const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
-    if (!(total > 0.0) || !std::isfinite(total)) fail(Fault::NoSolution, "the table reflects nothing back at wi = wo");
-    for (double &d : ndf) d /= total;
-    for (double &m : mass) m /= total;
+    std::vector<double> mass = n.normalise(ndf);
+    if (mass.empty()) fail(Fault::NoSolution, "the table reflects nothing back at wi = wo");
     return mass;
 }
 
@@ -123,16 +96,15 @@ double SlopeDensity::alpha() const {
 
 SlopeDensity invert(const Brdf &brdf, const InversionOptions &options) {
     validate(options);
-    const Nodes n = make_nodes();
+    const Nodes n;
     SlopeDensity density;
     const Matrix kernel = inversion_kernel(n, retro_reflection(brdf), options.masking_kernel);
     const std::vector<double> ndf = dominant_ndf(n, kernel, options, density);
-    for (std::size_t j = 0; j < nodes; ++j) {
-        density.slope.push_back(n.slope[j]);
-        density.p22.push_back(ndf[j] * std::pow(n.cos[j], 4));
-        density.area.push_back(2 * pi * n.weight[j] / std::pow(n.cos[j], 3));
-    }
+    n.store(ndf, density);
     density.fresnel = fit_fresnel(brdf, ndf);
+    density.name = brdf.name();
+    density.source = brdf.source();
+    density.sha256 = brdf.sha256();
     return density;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "brdf.h"
@@ -31,7 +32,8 @@ struct SlopeDensity {
     FresnelCurves fresnel;
     unsigned iterations = 0;
     bool converged = false;
-    double change = 0.0; // relative L1 change of the last iteration
+    double change = 0.0;              // relative L1 change of the last iteration
+    std::string name, source, sha256; // of the table or the file that it is from
 
     double alpha() const; // sqrt of the mean squared slope: Beckmann's alpha for one lobe
 };

@@ -1,4 +1,4 @@
-// slopemix fit: measured tables to material files, many at a time; what is up to date stays.
+// slopemix fit: measured tables and slope densities to material files, many at a time; what is up to date stays.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "fit_compare.h"
 #include "fit_job.h"
 #include "fit_report.h"
 #include "fit_row.h"
@@ -86,8 +87,16 @@ class FitRun {
     std::vector<FitOutcome> outcomes_; // in the order of the inputs
 };
 
+void compare(const FitJob &job) {
+    if (job.inputs.size() != 1) throw CLI::ValidationError("--compare", "it takes one INPUT, the source");
+    compare_tables(job.compare, job.inputs[0], job.json);
+}
+
 void run(const FitJob &job) {
+    if (!job.compare.empty()) return compare(job);
+    if (job.out.empty()) throw CLI::RequiredError("--out");
     refuse_equal_names(job);
+    for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
     require_writable_outputs(job);
     FitRun fits(job);
     bool cancelled = false;
@@ -108,17 +117,29 @@ void run(const FitJob &job) {
 void add_fit(CLI::App &app) {
     CLI::App *command = app.add_subcommand(
         "fit",
-        "Fit measured tables and write material files, DIR/<name>.json, and a row each of DIR/fits.csv and .json");
+        "Fit measured tables or slope densities and write material files, DIR/<name>.json, and a row each of "
+        "DIR/fits.csv and .json");
     const auto job = std::make_shared<FitJob>();
     job->jobs = std::clamp<std::size_t>(std::thread::hardware_concurrency(), jobs_range.low, jobs_range.high);
-    command->add_option("INPUT", job->inputs, "MERL tables (.binary) or builtin:NAME")->required()->type_name("");
-    command->add_option("--out", job->out, "Folder of the material files")->required()->type_name("DIR");
+    command
+        ->add_option("INPUT", job->inputs,
+                     "MERL tables (.binary), builtin:NAME, analytic:KIND,... (see synth) or density:FILE.csv")
+        ->required()
+        ->type_name("");
+    command->add_option("--out", job->out, "Folder of the material files")->type_name("DIR");
     add_fit_flags(*command, job->fit);
     const auto parse_jobs = [](const std::string &text) { return parse_count(text, jobs_range); };
     add_parsed(*command, "--jobs", job->jobs, parse_jobs, "Materials at the same time, 1 to 256 (default: the cores)")
         ->type_name("N");
     command->add_flag("--refit", job->refit, "Fit also what is up to date: same table, options and version");
     command->add_flag("--plot", job->plot, "Draw each fit with gnuplot: DIR/<name>.svg");
+    CLI::Option *compare =
+        command
+            ->add_option("--compare", job->compare,
+                         "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
+            ->type_name("OTHER.binary");
+    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--plot"})
+        compare->excludes(of_a_fit);
     command->add_flag("--json", job->json, "Print JSON");
     command->callback([job] { run(*job); });
 }

@@ -16,6 +16,7 @@ namespace slopemix::cli {
 struct FitJob {
     std::vector<std::string> inputs;
     std::filesystem::path out;
+    std::string compare; // a table; empty: fit
     FitFlags fit;
     std::size_t jobs = 1; // materials at the same time
     bool refit = false;   // also what is up to date
@@ -30,7 +31,7 @@ struct FitJob {
 struct Fitted {
     std::string input, name, file;
     std::string options; // of the fit, options_text()
-    std::string sha256;  // of the table
+    std::string sha256;  // of the table or the density's file
     smx_model model;
     std::vector<smx_lobe> lobes;
     std::array<double, 3> f0; // at normal incidence; per-lobe: the sum over the lobes

@@ -1,5 +1,5 @@
 // The layout, in gnuplot's screen units: slope density and legend of the lobes above, then a row of three Fresnel
-// charts and a row of three slices, one for each channel.
+// charts and a row of three slices, one for each channel. A density alone has the first row.
 #include "fit_plot.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace slopemix::cli {
 
 namespace {
 
-constexpr int width = 1200, height = 1180;
+constexpr int width = 1200, height = 1180, density_height = 500;
 constexpr std::array<const char *, 3> channels = {"red", "green", "blue"};
 constexpr const char *measured_colour = "#333333", *sum_colour = "#d55e00", *shared_colour = "#e69f00",
                      *per_lobe_colour = "#0072b2";
@@ -93,12 +93,18 @@ std::string lobe_formula(const smx_lobe &lobe) {
     return chart_number(lobe.weight / (std::numbers::pi * lobe.alpha * lobe.alpha)) + "*exp(-(x/" + alpha + ")**2)";
 }
 
+std::string heading(const Material &material, double at) {
+    const smx_material_info info = info_of(material);
+    const std::string text = std::string(info.name) + ", " + word_for(info.model, models) + ", " +
+                             std::to_string(info.lobes) + (info.lobes == 1 ? " lobe" : " lobes");
+    return "set label 1 " + chart_text(text) + " at screen 0.07, screen " + fixed(at, 4) +
+           " noenhanced font ',20' textcolor '#111111'\n";
+}
+
 std::string density_chart(const Density &density, const std::vector<smx_lobe> &lobes,
-                          const std::vector<std::string> &shades) {
-    smx_density_info info = SMX_DENSITY_INFO_INIT;
-    check(smx_density_get_info(density.get(), &info));
-    std::vector<double> slope(info.nodes), p22(info.nodes);
-    check(smx_density_get_nodes(density.get(), slope.data(), p22.data(), nullptr, info.nodes));
+                          const std::vector<std::string> &shades, double bottom, double top) {
+    std::vector<double> slope(info_of(density).nodes), p22(slope.size());
+    check(smx_density_get_nodes(density.get(), slope.data(), p22.data(), nullptr, slope.size()));
     std::vector<std::vector<double>> rows;
     Extent x, y;
     for (std::size_t k = 0; k < slope.size(); ++k) {
@@ -115,13 +121,14 @@ std::string density_chart(const Density &density, const std::vector<smx_lobe> &l
         curves += ", " + lobe_formula(lobes[k]) + " linewidth 1.4 linecolor '" + shades[k] + "' title '" +
                   general(lobes[k].alpha, 3) + '\'';
     }
-    return chart_data("density", rows) + place(0.07, 0.70, 0.705, 0.915) + title("Slope density and its lobes") +
+    return chart_data("density", rows) + place(0.07, 0.70, bottom, top) + title("Slope density and its lobes") +
            "set logscale xy\nset format xy '10^{%T}'\nset xlabel 'slope, tan θ'\nset ylabel 'p_{22}, per unit "
            "slope²'\n" +
-           log_range("x", x, 8.0) + log_range("y", y, 12.0) +
-           "set samples 1000\nset key at screen 0.72, screen 0.925 left top Left reverse maxrows 18\n"
+           log_range("x", x, 8.0) + log_range("y", y, 12.0) + "set samples 1000\nset key at screen 0.72, screen " +
+           fixed(top + 0.01, 4) +
+           " left top Left reverse maxrows 18\n"
            "plot $density using 1:2 with points pointtype 7 pointsize 0.35 linecolor '" +
-           measured_colour + "' title 'table', keyentry with lines " + sum_style +
+           measured_colour + "' title 'density', keyentry with lines " + sum_style +
            " title 'all lobes', keyentry with lines linecolor '#ffffff' title 'α of each:'" + curves + ", " + sum +
            " with lines " + sum_style + '\n';
 }
@@ -187,13 +194,16 @@ std::string plot_fit(const Context &context, const Brdf &brdf, const Density &de
     const Curves curves = curves_of(material);
     const std::vector<smx_lobe> lobes = lobes_of(material, curves);
     const std::vector<std::string> shades = chart_shades(lobes.size());
-    const std::string heading = std::string(info_of(material).name) + ", " + word_for(info_of(material).model, models) +
-                                ", " + std::to_string(lobes.size()) + (lobes.size() == 1 ? " lobe" : " lobes");
-    return run_gnuplot(chart_head(width, height) + "set multiplot\nset label 1 " + chart_text(heading) +
-                       " at screen 0.07, screen 0.965 noenhanced font ',20' textcolor '#111111'\n" +
-                       density_chart(density, lobes, shades) + "unset label 1\n" +
+    return run_gnuplot(chart_head(width, height) + "set multiplot\n" + heading(material, 0.965) +
+                       density_chart(density, lobes, shades, 0.705, 0.915) + "unset label 1\n" +
                        fresnel_charts(curves, curves.sets == 1 ? chart_shades(1) : shades) +
                        slice_charts(slice_at_45_degrees(context, brdf, {&shared, &per_lobe})) + "unset multiplot\n");
+}
+
+std::string plot_density(const Density &density, const Material &material) {
+    const std::vector<smx_lobe> lobes = lobes_of(material, curves_of(material));
+    return run_gnuplot(chart_head(width, density_height) + heading(material, 0.93) +
+                       density_chart(density, lobes, chart_shades(lobes.size()), 0.15, 0.82));
 }
 
 } // namespace slopemix::cli

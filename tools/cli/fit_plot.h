@@ -14,4 +14,7 @@ namespace slopemix::cli {
 std::string plot_fit(const Context &context, const Brdf &brdf, const Density &density, const Material &material,
                      const FitFlags &flags);
 
+// The first of the parts alone, for a density that is from no BRDF.
+std::string plot_density(const Density &density, const Material &material);
+
 } // namespace slopemix::cli

@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char *density_note = "a slope density has no BRDF to fit other curves to: F = 1";
+
 Json to_json(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
     const bool per_lobe = fitted.model == SMX_MODEL_PER_LOBE;
@@ -22,6 +24,7 @@ Json to_json(const Fitted &fitted) {
             {"file", fitted.file},
             {"up_to_date", fitted.up_to_date},
             {"model", word_for(fitted.model, models)},
+            {"model_note", is_density(fitted.input) ? Json(density_note) : Json()},
             {"lobes", lobes},
             {"log_likelihood_em", report.log_likelihood_em},
             {"log_likelihood", report.log_likelihood},
@@ -56,8 +59,9 @@ std::string refined(double before, double after) {
 
 void print_facts_of(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
-    std::cout << fitted.name << " -> " << fitted.file << ", " << word_for(fitted.model, models)
-              << (fitted.up_to_date ? ", up to date" : "") << '\n';
+    std::cout << fitted.name << " -> " << fitted.file << ", " << word_for(fitted.model, models);
+    if (is_density(fitted.input)) std::cout << " (" << density_note << ')';
+    std::cout << (fitted.up_to_date ? ", up to date" : "") << '\n';
     std::vector<TextRow> rows = {{"  lobe", "weight", "alpha"}};
     for (const smx_lobe &lobe : fitted.lobes)
         rows.push_back({std::to_string(rows.size()), fixed(lobe.weight, 6), general(lobe.alpha, 5)});

@@ -34,29 +34,29 @@ bool is_stale(const fs::path &plot, const fs::path &material) {
 
 } // namespace
 
-FitWorker::FitWorker(const FitJob &job, const FitTable &earlier)
-    : job_(job), earlier_(earlier), options_(options_text(job.fit)) {
+FitWorker::FitWorker(const FitJob &job, const FitTable &earlier) : job_(job), earlier_(earlier) {
     if (!job.plot) return;
     require_gnuplot();
     context_ = open_context("");
 }
 
-Material FitWorker::load_if_up_to_date(const std::string &input, const Brdf &brdf) const {
-    const std::string sha256 = info_of(brdf).sha256;
-    const FitTable::Row *row = job_.refit ? nullptr : earlier_.find(name_of(input));
-    if (!row || !is_row_of(*row, sha256, options_)) return nullptr;
+Material FitWorker::load_if_up_to_date(const FitSource &source) const {
+    const std::string sha256 = source.sha256();
+    const FitTable::Row *row = job_.refit ? nullptr : earlier_.find(name_of(source.input()));
+    if (!row || !is_row_of(*row, sha256, options_text(source.flags()))) return nullptr;
     smx_material material = nullptr;
-    if (smx_material_load(job_.file_for(input).c_str(), &material) != SMX_OK) return nullptr;
+    if (smx_material_load(job_.file_for(source.input()).c_str(), &material) != SMX_OK) return nullptr;
     Material loaded(material);
-    return info_of(loaded).sha256 == sha256 && info_of(loaded).model == job_.fit.model ? std::move(loaded) : nullptr;
+    const smx_material_info info = info_of(loaded);
+    return info.sha256 == sha256 && info.model == source.flags().model ? std::move(loaded) : nullptr;
 }
 
-Fitted FitWorker::describe(const std::string &input, const Material &material, bool up_to_date) const {
+Fitted FitWorker::describe(const FitSource &source, const Material &material, bool up_to_date) const {
     const smx_material_info info = info_of(material);
-    return {input,
-            name_of(input),
-            job_.file_for(input).string(),
-            options_,
+    return {source.input(),
+            name_of(source.input()),
+            job_.file_for(source.input()).string(),
+            options_text(source.flags()),
             info.sha256,
             info.model,
             lobes_of(material),
@@ -65,26 +65,27 @@ Fitted FitWorker::describe(const std::string &input, const Material &material, b
             up_to_date};
 }
 
+void FitWorker::draw(FitSource &source, const Material &material) const {
+    const std::string svg = source.brdf()
+                                ? plot_fit(context_, source.brdf(), source.density(), material, source.flags())
+                                : plot_density(source.density(), material);
+    StagedFiles files;
+    files.write(job_.plot_for(source.input()), [&](const fs::path &temporary) { write_text(temporary, svg); });
+    files.commit();
+}
+
 void FitWorker::fit_input(const std::string &input, FitOutcome &outcome) const {
-    const Brdf brdf = open_brdf(input);
+    FitSource source(input, job_.fit);
     const fs::path file = job_.file_for(input);
-    Density density;
-    Material material = load_if_up_to_date(input, brdf);
+    Material material = load_if_up_to_date(source);
     const bool up_to_date = material != nullptr;
     if (!up_to_date) {
-        density = invert(brdf);
-        material = fit(density, job_.fit);
+        material = fit(source.density(), source.flags());
         make_folder_of(file);
         check(smx_material_save(material.get(), file.c_str()));
     }
-    outcome.fitted = describe(input, material, up_to_date);
-
-    if (!job_.plot || (up_to_date && !is_stale(job_.plot_for(input), file))) return;
-    if (!density) density = invert(brdf);
-    const std::string svg = plot_fit(context_, brdf, density, material, job_.fit);
-    StagedFiles files;
-    files.write(job_.plot_for(input), [&](const fs::path &temporary) { write_text(temporary, svg); });
-    files.commit();
+    outcome.fitted = describe(source, material, up_to_date);
+    if (job_.plot && (!up_to_date || is_stale(job_.plot_for(input), file))) draw(source, material);
 }
 
 FitOutcome FitWorker::process(std::size_t index) const {

@@ -1,7 +1,8 @@
-// The fit of one input, from its table to its files. Its object may be used from many threads.
+// The fit of one input, from its file to the material's. Its object may be used from many threads.
 #pragma once
 
 #include "fit_job.h"
+#include "fit_source.h"
 #include "fit_table.h"
 
 namespace slopemix::cli {
@@ -16,14 +17,14 @@ class FitWorker {
     FitOutcome process(std::size_t index) const;
 
   private:
-    Material load_if_up_to_date(const std::string &input, const Brdf &brdf) const;
-    Fitted describe(const std::string &input, const Material &material, bool up_to_date) const;
+    Material load_if_up_to_date(const FitSource &source) const;
+    Fitted describe(const FitSource &source, const Material &material, bool up_to_date) const;
+    void draw(FitSource &source, const Material &material) const;
     void fit_input(const std::string &input, FitOutcome &outcome) const;
 
     const FitJob &job_;
     const FitTable earlier_; // a copy: the table changes while the workers work
-    const std::string options_;
-    Context context_; // only for pictures
+    Context context_;        // only for pictures
 };
 
 } // namespace slopemix::cli

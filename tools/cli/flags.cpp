@@ -26,7 +26,8 @@ void add_fit_flags(CLI::App &command, FitFlags &flags) {
     add_parsed(command, "--lobes", flags.lobes, parse_lobes, "Beckmann lobes to fit, 1 to 64 (default 8)")
         ->type_name("N");
     add_choice(command, "--model", flags.model, models,
-               "One Fresnel curve per channel for all lobes, or one for each (default per-lobe)");
+               "One Fresnel curve per channel for all lobes, or one for each (default per-lobe)")
+        ->each([&flags](const std::string &) { flags.model_given = true; });
 }
 
 std::string options_text(const FitFlags &flags) {

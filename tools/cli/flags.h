@@ -45,6 +45,7 @@ CLI::Option *add_choice(CLI::App &command, const std::string &flag, Value &targe
 struct FitFlags {
     smx_model model = SMX_MODEL_PER_LOBE;
     std::uint32_t lobes = 8;
+    bool model_given = false; // by --model
 };
 
 void add_fit_flags(CLI::App &command, FitFlags &flags);

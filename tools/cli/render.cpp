@@ -143,7 +143,9 @@ void add_scene_flags(CLI::App &command, RenderJob &job) {
 void add_render(CLI::App &app) {
     CLI::App *command = app.add_subcommand("render", "Render the displaced sphere into an EXR file");
     const auto job = std::make_shared<RenderJob>();
-    command->add_option("INPUT", job->input, "A MERL table (.binary), builtin:NAME or a material file (.json)")
+    command
+        ->add_option("INPUT", job->input,
+                     "A MERL table (.binary), builtin:NAME, analytic:KIND,... or a material file (.json)")
         ->required()
         ->type_name("");
     add_choice(*command, "--integrator", job->integrator, integrators,

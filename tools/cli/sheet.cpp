@@ -68,7 +68,9 @@ void add_sheet(CLI::App &app) {
     CLI::App *command = app.add_subcommand(
         "sheet", "Render the displaced-sphere sheet: T.R.C.exr, the contact sheet sheet.png, and sheet.json");
     const auto job = std::make_shared<SheetJob>();
-    command->add_option("INPUT", job->input, "A MERL table (.binary) or builtin:NAME")->required()->type_name("");
+    command->add_option("INPUT", job->input, "A MERL table (.binary), builtin:NAME or analytic:KIND,...")
+        ->required()
+        ->type_name("");
     command->add_option("--out", job->out, "Folder of the sheet")->required()->type_name("DIR");
     const auto parse_radii = [](const std::string &text) { return parse_numbers(text, alpha_range); };
     add_parsed(*command, "--radii", job->radii, parse_radii, "Roughnesses r, a row each (default 0.1,0.25,0.5)")

@@ -1,4 +1,4 @@
-// slopemix synth: writes a built-in analytic material as a MERL table.
+// slopemix synth: writes a built-in or analytic material as a MERL table.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -17,7 +17,8 @@ struct SynthFlags {
 };
 
 void run(const SynthFlags &flags) {
-    if (!is_builtin(flags.input)) throw CLI::ValidationError("INPUT", "'" + flags.input + "' is not builtin:NAME");
+    if (!is_synthetic(flags.input))
+        throw CLI::ValidationError("INPUT", "'" + flags.input + "' is neither builtin:NAME nor analytic:KIND,...");
     require_writable(flags.out);
     const Brdf brdf = open_brdf(flags.input);
     make_folder_of(flags.out);
@@ -28,9 +29,9 @@ void run(const SynthFlags &flags) {
 } // namespace
 
 void add_synth(CLI::App &app) {
-    CLI::App *command = app.add_subcommand("synth", "Write a built-in material as a MERL table");
+    CLI::App *command = app.add_subcommand("synth", "Write a built-in or analytic material as a MERL table");
     const auto flags = std::make_shared<SynthFlags>();
-    command->add_option("INPUT", flags->input, "builtin:two-layer or builtin:conductor")->required()->type_name("");
+    command->add_option("INPUT", flags->input, synthetic_help)->required()->type_name("");
     command->add_option("--out", flags->out, "The table to write")->required()->type_name("F.binary");
     command->callback([flags] { run(*flags); });
 }
