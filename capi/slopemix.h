@@ -367,7 +367,7 @@ SMX_API smx_status smx_brdf_compare(smx_brdf brdf, smx_brdf reference, smx_brdf_
 SMX_API smx_status smx_material_brdf_errors(smx_material material, smx_brdf reference, smx_brdf_errors *errors);
 
 /* Models of a few parameters, to compare a mixture with:
- * f = (f0 + (1 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
+ * f = (f0 + (f90 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
 typedef enum smx_baseline {
     SMX_BASELINE_BECKMANN = 0,   /* one Beckmann lobe, kd = 0 */
     SMX_BASELINE_GGX = 1,        /* one GGX lobe, kd = 0 */
@@ -376,20 +376,24 @@ typedef enum smx_baseline {
 
 typedef struct smx_baseline_report {
     size_t size;
-    double alpha;         /* 1e-4..1e4 */
-    double f0[3];         /* per channel, >= 0 */
-    double kd[3];         /* per channel, >= 0 */
-    double brdf_residual; /* relative, root mean square over the fit's samples; comparable with smx_fit_report's */
+    double alpha;    /* 1e-4..1e4 */
+    double f0[3];    /* per channel, >= 0 */
+    double f90[3];   /* per channel, >= 0 */
+    double kd[3];    /* per channel, >= 0 */
+    double residual; /* log error of the cells that were fitted, relative to that of a black model */
     uint32_t iterations;
     char message[256]; /* the solver's verdict */
     double seconds;    /* of the fit, the errors apart */
     smx_brdf_errors errors;
 } smx_baseline_report;
-#define SMX_BASELINE_REPORT_INIT \
-    { sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, SMX_BRDF_ERRORS_INIT }
+#define SMX_BASELINE_REPORT_INIT                                                                              \
+    {                                                                                                         \
+        sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, \
+            SMX_BRDF_ERRORS_INIT                                                                              \
+    }
 
-/* Fits a baseline to a table: the samples, weights and robust loss of the per-lobe model's refinement, from several
- * starts. Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
+/* Fits a baseline to a table by the log error over a share of its cells, from several starts (docs/metrics.md).
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
 SMX_API smx_status smx_baseline_fit(smx_brdf brdf, smx_baseline kind, smx_baseline_report *report);
 
 /* ----------------------------------------------------------------------------------------------- scene and rendering */
