@@ -234,6 +234,58 @@ TEST(CliBatch, CsvAndJsonSayTheSame) {
     }
 }
 
+TEST(CliBatch, MetricsAreThoseOfTheLibrary) {
+    const test::TempDir dir;
+    const Arguments fit = {"fit", "builtin:two-layer", "--lobes", "2", "--json", "--out", dir / "out"};
+    const auto material_of = [&](const Arguments &more) {
+        const test::CliResult run = test::cli(test::with(fit, more));
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.json().at("materials").at(0);
+    };
+    EXPECT_TRUE(material_of({}).at("metrics").is_null());
+    EXPECT_TRUE(rows_in(dir).at(0).at("ggx_lambert_log_80").is_null());
+    const auto time = fs::last_write_time(dir / "out/two-layer.json");
+
+    // They are added to a fit that is up to date, and kept.
+    const json material = material_of({"--metrics"}), figures = material.at("metrics"), row = rows_in(dir).at(0);
+    EXPECT_TRUE(material.at("up_to_date"));
+    EXPECT_EQ(material_of({"--metrics"}).at("metrics"), figures);
+    EXPECT_EQ(material_of({}).at("metrics"), figures);
+    EXPECT_EQ(fs::last_write_time(dir / "out/two-layer.json"), time);
+    EXPECT_EQ(figures.size(), 31u);
+    for (const auto &[name, value] : figures.items()) {
+        EXPECT_EQ(row.at(name), value) << name;
+        EXPECT_GT(value.get<double>(), 0.0) << name;
+    }
+
+    test::Brdf brdf;
+    ASSERT_SMX_OK(smx_brdf_open("builtin:two-layer", brdf.out()));
+    const auto expect_figures = [&](const std::string &model, const smx_brdf_errors &errors) {
+        EXPECT_EQ(figures.at(model + "_l2"), errors.l2) << model;
+        EXPECT_EQ(figures.at(model + "_log"), errors.log) << model;
+        EXPECT_EQ(figures.at(model + "_cube_root"), errors.cube_root) << model;
+        EXPECT_EQ(figures.at(model + "_l2_80"), errors.l2_80) << model;
+        EXPECT_EQ(figures.at(model + "_log_80"), errors.log_80) << model;
+        EXPECT_EQ(figures.at(model + "_cube_root_80"), errors.cube_root_80) << model;
+    };
+    for (const smx_model model : {SMX_MODEL_SHARED, SMX_MODEL_PER_LOBE}) {
+        const test::Material fitted = test::fit(test::make_density(brdf, SMX_MASKING_COINCIDES), 2, model);
+        smx_brdf_errors errors = SMX_BRDF_ERRORS_INIT;
+        ASSERT_SMX_OK(smx_material_brdf_errors(fitted, brdf, &errors));
+        expect_figures(model == SMX_MODEL_SHARED ? "shared" : "per_lobe", errors);
+    }
+    const std::pair<const char *, smx_baseline> baselines[] = {
+        {"beckmann", SMX_BASELINE_BECKMANN}, {"ggx", SMX_BASELINE_GGX}, {"ggx_lambert", SMX_BASELINE_GGX_LAMBERT}};
+    for (const auto &[name, kind] : baselines) {
+        smx_baseline_report report = SMX_BASELINE_REPORT_INIT;
+        ASSERT_SMX_OK(smx_baseline_fit(brdf, kind, &report));
+        expect_figures(name, report.errors);
+    }
+
+    EXPECT_FALSE(material_of({"--refit"}).at("up_to_date"));
+    EXPECT_TRUE(rows_in(dir).at(0).at("shared_l2").is_null()); // another fit's would be out of date
+}
+
 TEST(CliBatch, ThreadsChangeNothing) {
     const test::TempDir dir;
     const Arguments tables = make_tables(dir, {"a", "b", "c"});

@@ -132,13 +132,16 @@ void add_fit(CLI::App &app) {
     add_parsed(*command, "--jobs", job->jobs, parse_jobs, "Materials at the same time, 1 to 256 (default: the cores)")
         ->type_name("N");
     command->add_flag("--refit", job->refit, "Fit also what is up to date: same table, options and version");
+    command->add_flag("--metrics", job->metrics,
+                      "Also measure the errors of both models and of three baselines in BRDF space (docs/metrics.md), "
+                      "about 2 s a material, for the report, fits.csv and fits.json");
     command->add_flag("--plot", job->plot, "Draw each fit with gnuplot: DIR/<name>.svg");
     CLI::Option *compare =
         command
             ->add_option("--compare", job->compare,
                          "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
             ->type_name("OTHER.binary");
-    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--plot"})
+    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--metrics", "--plot"})
         compare->excludes(of_a_fit);
     command->add_flag("--json", job->json, "Print JSON");
     command->callback([job] { run(*job); });

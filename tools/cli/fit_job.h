@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fit_metrics.h"
 #include "flags.h"
 #include "handles.h"
 #include "input.h"
@@ -20,6 +21,7 @@ struct FitJob {
     FitFlags fit;
     std::size_t jobs = 1; // materials at the same time
     bool refit = false;   // also what is up to date
+    bool metrics = false; // errors in BRDF space
     bool plot = false;
     bool json = false;
 
@@ -37,6 +39,7 @@ struct Fitted {
     std::array<double, 3> f0; // at normal incidence; per-lobe: the sum over the lobes
     smx_fit_report report;
     bool up_to_date = false; // an earlier run's
+    std::optional<FitMetrics> metrics;
 };
 
 // What came of one input: a material, an error, or both where the material is there and its picture is not.

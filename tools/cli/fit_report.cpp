@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "brdf_metrics.h"
 #include "text.h"
 
 namespace slopemix::cli {
@@ -13,6 +14,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char *density_note = "a slope density has no BRDF to fit other curves to: F = 1";
+
+Json metrics_json(const std::optional<FitMetrics> &metrics) {
+    if (!metrics) return {};
+    Json figures;
+    put_metrics(figures, metrics);
+    return figures;
+}
 
 Json to_json(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
@@ -39,7 +47,8 @@ Json to_json(const Fitted &fitted) {
             {"brdf_residual", per_lobe ? Json(report.brdf_residual) : Json()},
             {"refine_message", report.refine_message},
             {"curve_message", report.curve_message},
-            {"seconds", report.seconds}};
+            {"seconds", report.seconds},
+            {"metrics", metrics_json(fitted.metrics)}};
 }
 
 void print_json(const FitJob &job, const std::vector<FitOutcome> &outcomes) {
@@ -55,6 +64,21 @@ void print_json(const FitJob &job, const std::vector<FitOutcome> &outcomes) {
 
 std::string refined(double before, double after) {
     return fixed(after, 6) + " (before the refinement " + fixed(before, 6) + ")";
+}
+
+void print_metrics(const FitMetrics &metrics) {
+    std::vector<TextRow> rows = {{"  errors in BRDF space"}};
+    for (const char *ending : {"", "_80"})
+        for (const BrdfMetric &metric : brdf_metrics) rows[0].push_back(std::string(metric.name) + ending);
+    for (std::size_t k = 0; k < measured_models.size(); ++k) {
+        TextRow &row = rows.emplace_back(TextRow{measured_models[k]});
+        for (const BrdfMetric &metric : brdf_metrics) row.push_back(general(metrics.errors[k].*metric.all, 4));
+        for (const BrdfMetric &metric : brdf_metrics) row.push_back(general(metrics.errors[k].*metric.within_80, 4));
+    }
+    print_table(std::cout, rows);
+    for (const BrdfMetric &metric : brdf_metrics) std::cout << "  " << metric.name << ": " << metric.formula << '\n';
+    std::cout << "  _80: up to 80 degrees\n  " << brdf_metrics_note << "; " << fixed(metrics.seconds, 3)
+              << " seconds\n";
 }
 
 void print_facts_of(const Fitted &fitted) {
@@ -78,6 +102,7 @@ void print_facts_of(const Fitted &fitted) {
     facts.emplace_back("  iterations", iterations);
     facts.emplace_back("  seconds", fixed(report.seconds, 3));
     print_facts(std::cout, facts);
+    if (fitted.metrics) print_metrics(*fitted.metrics);
 }
 
 TextRow line_of(const Fitted &fitted) {

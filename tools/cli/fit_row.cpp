@@ -1,9 +1,11 @@
-// To add a column, add a line to `columns`.
+// To add a column, add a line to `columns`; those of --metrics are fit_metrics.h's.
 #include "fit_row.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "text.h"
 
@@ -85,11 +87,21 @@ std::string csv_field(const std::string &text) {
     return quoted + '"';
 }
 
+std::vector<std::string> column_names() {
+    std::vector<std::string> names;
+    for (const Column &column : columns) names.emplace_back(column.name);
+    Json metrics;
+    put_metrics(metrics, std::nullopt);
+    for (const auto &[name, none] : metrics.items()) names.push_back(name);
+    return names;
+}
+
 } // namespace
 
 Json fit_row(const Fitted &fitted) {
     Json row;
     for (const Column &column : columns) row[column.name] = column.value(fitted);
+    put_metrics(row, fitted.metrics);
     return row;
 }
 
@@ -100,18 +112,15 @@ bool is_row_of(const Json &row, const std::string &sha256, const std::string &op
 
 std::string csv_heading() {
     std::string line;
-    for (const Column &column : columns) {
-        if (&column != columns) line += ',';
-        line += column.name;
-    }
+    for (const std::string &name : column_names()) line += (line.empty() ? "" : ",") + name;
     return line + '\n';
 }
 
 std::string csv_line(const Json &row) {
     std::string line;
-    for (const Column &column : columns) {
-        if (&column != columns) line += ',';
-        if (row.contains(column.name)) line += csv_field(text_of(row[column.name]));
+    for (const std::string &name : column_names()) {
+        if (name != columns[0].name) line += ',';
+        if (row.contains(name)) line += csv_field(text_of(row[name]));
     }
     return line + '\n';
 }

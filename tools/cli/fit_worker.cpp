@@ -62,7 +62,8 @@ Fitted FitWorker::describe(const FitSource &source, const Material &material, bo
             lobes_of(material),
             f0_of(material),
             report_of(material),
-            up_to_date};
+            up_to_date,
+            up_to_date ? metrics_of(*earlier_.find(name_of(source.input()))) : std::nullopt};
 }
 
 void FitWorker::draw(FitSource &source, const Material &material) const {
@@ -84,7 +85,8 @@ void FitWorker::fit_input(const std::string &input, FitOutcome &outcome) const {
         make_folder_of(file);
         check(smx_material_save(material.get(), file.c_str()));
     }
-    outcome.fitted = describe(source, material, up_to_date);
+    Fitted &fitted = outcome.fitted.emplace(describe(source, material, up_to_date));
+    if (job_.metrics && !fitted.metrics && source.brdf()) fitted.metrics = measure_fit(source, material);
     if (job_.plot && (!up_to_date || is_stale(job_.plot_for(input), file))) draw(source, material);
 }
 
