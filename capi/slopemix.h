@@ -199,11 +199,12 @@ typedef struct smx_density_info {
     uint32_t fresnel_knots; /* theta_d = k pi/180, k = 0..knots-1 */
     uint32_t iterations;
     int converged;
-    double change; /* relative L1 change of the last iteration */
-    double alpha;  /* sqrt of the mean squared slope: the one-lobe fit */
+    double change;   /* relative L1 change of the last iteration */
+    double alpha;    /* sqrt of the mean squared slope: the one-lobe fit */
+    char sha256[65]; /* of the table, as smx_brdf_info has it, or of the CSV file; "" for a density from samples */
 } smx_density_info;
 #define SMX_DENSITY_INFO_INIT \
-    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0 }
+    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0, "" }
 
 /* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
 SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
@@ -394,7 +395,7 @@ SMX_API smx_status smx_brdf_compare(smx_brdf brdf, smx_brdf reference, smx_brdf_
 SMX_API smx_status smx_material_brdf_errors(smx_material material, smx_brdf reference, smx_brdf_errors *errors);
 
 /* Models of a few parameters, to compare a mixture with:
- * f = (f0 + (1 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
+ * f = (f0 + (f90 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
 typedef enum smx_baseline {
     SMX_BASELINE_BECKMANN = 0,   /* one Beckmann lobe, kd = 0 */
     SMX_BASELINE_GGX = 1,        /* one GGX lobe, kd = 0 */
@@ -403,20 +404,24 @@ typedef enum smx_baseline {
 
 typedef struct smx_baseline_report {
     size_t size;
-    double alpha;         /* 1e-4..1e4 */
-    double f0[3];         /* per channel, >= 0 */
-    double kd[3];         /* per channel, >= 0 */
-    double brdf_residual; /* relative, root mean square over the fit's samples; comparable with smx_fit_report's */
+    double alpha;    /* 1e-4..1e4 */
+    double f0[3];    /* per channel, >= 0 */
+    double f90[3];   /* per channel, >= 0 */
+    double kd[3];    /* per channel, >= 0 */
+    double residual; /* log error of the cells that were fitted, relative to that of a black model */
     uint32_t iterations;
     char message[256]; /* the solver's verdict */
     double seconds;    /* of the fit, the errors apart */
     smx_brdf_errors errors;
 } smx_baseline_report;
-#define SMX_BASELINE_REPORT_INIT \
-    { sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, SMX_BRDF_ERRORS_INIT }
+#define SMX_BASELINE_REPORT_INIT                                                                              \
+    {                                                                                                         \
+        sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, \
+            SMX_BRDF_ERRORS_INIT                                                                              \
+    }
 
-/* Fits a baseline to a table: the samples, weights and robust loss of the per-lobe model's refinement, from several
- * starts. Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
+/* Fits a baseline to a table by the log error over a share of its cells, from several starts (docs/metrics.md).
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
 SMX_API smx_status smx_baseline_fit(smx_brdf brdf, smx_baseline kind, smx_baseline_report *report);
 
 /* ----------------------------------------------------------------------------------------------- scene and rendering */
@@ -502,6 +507,14 @@ SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *sce
  * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
                                      smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
+
+/* f of the measured table in 1/sr, NOT times a cosine, for `count` pairs of directions. wi, wo, f: [count][3], packed.
+ * Half and difference angles of the pair, phi_d modulo pi, values past the last theta_h or theta_d are the last node's
+ * (smx_lookup; a table over the full azimuth is the mean of its halves). 0 where either direction is not above the
+ * surface. Not normalised: directions must be unit vectors. The table goes to the device at every call: give many pairs
+ * at once. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
+SMX_API smx_status smx_brdf_eval(smx_context context, smx_brdf brdf, smx_lookup lookup, size_t count, const float *wi,
+                                 const float *wo, float *f);
 
 /* ------------------------------------------------------------------------------------------------------------- images */
 
