@@ -104,7 +104,7 @@ std::vector<Lobe> quantile_start(const SlopeDensity &density, unsigned count) {
         // A node that reaches over several shares is split among them.
         const double from = before * count, to = (before + density.mass[j]) * count;
         for (auto k = static_cast<unsigned>(from); k < count && k < to; ++k)
-            shares.add(k, std::min(to, k + 1.0) - std::max(from, static_cast<double>(k)), density.slope[j]);
+            shares.add(k, (std::min(to, k + 1.0) - std::max(from, static_cast<double>(k))) / count, density.slope[j]);
         before += density.mass[j];
     }
     return shares.lobes();

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double first_share = 0.03;
 constexpr double more_shares[] = {0.1, 0.2};
-constexpr double allowed_base_relrmse = 0.045, allowed_base_growth = 1.05;
+constexpr double allowed_growth = 1.05, allowed_rise = 0.006, allowed_to = 0.045;
 
-constexpr unsigned first_iterations = 18, continued_iterations = 6;
+constexpr unsigned first_iterations = 20, continued_iterations = 6;
 
 PerLobeFit in_order_of_alpha(const PerLobeFit &fit) {
     std::vector<std::size_t> order(fit.alphas.size());
@@ -63,7 +63,8 @@ PerLobeRefinement refine(const FitData &data, const PerLobeFit &start, double &s
     refine_per_lobe(joined(base, data.displaced, share), first_iterations, best);
     if (reweigh(base, best.fit)) refine_per_lobe(joined(base, data.displaced, share), continued_iterations, best);
 
-    const double allowed = std::max(allowed_base_relrmse, allowed_base_growth * base_relrmse(data, best.fit));
+    const double alone = base_relrmse(data, best.fit);
+    const double allowed = std::max(allowed_growth * alone, std::min(alone + allowed_rise, allowed_to));
     for (double more : more_shares) {
         PerLobeRefinement next = best;
         refine_per_lobe(joined(base, data.displaced, more), continued_iterations, next);

@@ -13,8 +13,8 @@ namespace smx {
 // order, its values over data.scale.
 //
 // Residuals are the base's and, with a share, those of displaced surfaces under the closed form, which the fit can
-// partly make up for. That share is raised in steps for as long as the base pays little for it: while its relRMSE stays
-// below 0.045, or within a twentieth of what it is without.
+// partly make up for. That share is raised in steps for as long as the base pays little for it: a twentieth of its own
+// relRMSE, or, up to 0.045, 0.006.
 PerLobeFit fit_per_lobe(const FitData &data, const std::vector<double> &alphas, bool refine, Material &material);
 
 // Alphas spread evenly in the logarithm between the mixture's ends: another start.

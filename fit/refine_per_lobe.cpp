@@ -21,6 +21,7 @@ void solve(const std::vector<DirectionLevel> &levels, const std::vector<EnergyBo
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = static_cast<int>(max_iterations);
     options.function_tolerance = 3e-4;
+    options.max_num_line_search_step_size_iterations = 3; // along the bounds: more cost time and gain nothing
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem.problem(), &summary);

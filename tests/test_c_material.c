@@ -117,7 +117,7 @@ static void check_fit(void) {
         INVALID("size", smx_material_fit(density, &bad, &material));
     }
     bad = good;
-    bad.lobes = 0;
+    bad.lobes = 66;
     INVALID("lobes", smx_material_fit(density, &bad, &material));
     bad.lobes = 65;
     INVALID("65", smx_material_fit(density, &bad, &material));

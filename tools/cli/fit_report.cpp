@@ -22,6 +22,9 @@ Json metrics_json(const std::optional<FitMetrics> &metrics) {
     return figures;
 }
 
+// A density has no table to be judged by.
+Json of_table(const Fitted &fitted, double figure) { return is_density(fitted.input) ? Json() : Json(figure); }
+
 Json to_json(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;
     const bool per_lobe = fitted.model == SMX_MODEL_PER_LOBE;
@@ -45,9 +48,15 @@ Json to_json(const Fitted &fitted) {
               {"curves", report.curve_iterations}}},
             {"brdf_residual_start", per_lobe ? Json(report.brdf_residual_start) : Json()},
             {"brdf_residual", per_lobe ? Json(report.brdf_residual) : Json()},
+            {"displaced_share", per_lobe ? Json(report.displaced_share) : Json()},
+            {"base_relrmse", of_table(fitted, report.base_relrmse)},
+            {"displaced_relrmse", of_table(fitted, report.displaced_relrmse)},
+            {"displaced_relrmse_shared", of_table(fitted, report.displaced_relrmse_shared)},
+            {"choice", report.choice},
             {"refine_message", report.refine_message},
             {"curve_message", report.curve_message},
             {"seconds", report.seconds},
+            {"check_seconds", report.check_seconds},
             {"metrics", metrics_json(fitted.metrics)}};
 }
 
@@ -99,6 +108,13 @@ void print_facts_of(const Fitted &fitted) {
         facts.emplace_back("  BRDF residual", refined(report.brdf_residual_start, report.brdf_residual));
         iterations += ", " + std::to_string(report.curve_iterations) + " curves";
     }
+    if (!is_density(fitted.input)) {
+        facts.emplace_back("  relRMSE, estimated", fixed(report.base_relrmse, 4) + " undisplaced, " +
+                                                       fixed(report.displaced_relrmse, 4) + " displaced");
+        if (fitted.model == SMX_MODEL_PER_LOBE)
+            facts.emplace_back("  shared model", fixed(report.displaced_relrmse_shared, 4) + " displaced");
+    }
+    if (report.choice[0] != '\0') facts.emplace_back("  choice", report.choice);
     facts.emplace_back("  iterations", iterations);
     facts.emplace_back("  seconds", fixed(report.seconds, 3));
     print_facts(std::cout, facts);

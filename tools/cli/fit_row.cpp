@@ -27,6 +27,9 @@ Json only_for(smx_model model, const Fitted &fitted, const Json &value) {
     return fitted.model == model ? value : Json();
 }
 
+// A density has no table to be judged by.
+Json of_table(const Fitted &fitted, double figure) { return is_density(fitted.input) ? Json() : number(figure); }
+
 struct Column {
     const char *name;
     Json (*value)(const Fitted &);
@@ -51,11 +54,18 @@ constexpr Column columns[] = {
     {"brdf_residual_start",
      [](const Fitted &f) { return only_for(SMX_MODEL_PER_LOBE, f, number(f.report.brdf_residual_start)); }},
     {"brdf_residual", [](const Fitted &f) { return only_for(SMX_MODEL_PER_LOBE, f, number(f.report.brdf_residual)); }},
+    {"displaced_share",
+     [](const Fitted &f) { return only_for(SMX_MODEL_PER_LOBE, f, number(f.report.displaced_share)); }},
+    {"base_relrmse", [](const Fitted &f) { return of_table(f, f.report.base_relrmse); }},
+    {"displaced_relrmse", [](const Fitted &f) { return of_table(f, f.report.displaced_relrmse); }},
+    {"displaced_relrmse_shared", [](const Fitted &f) { return of_table(f, f.report.displaced_relrmse_shared); }},
+    {"choice", [](const Fitted &f) -> Json { return f.report.choice; }},
     {"inversion_iterations", [](const Fitted &f) -> Json { return f.report.inversion_iterations; }},
     {"em_iterations", [](const Fitted &f) -> Json { return f.report.em_iterations; }},
     {"refine_iterations", [](const Fitted &f) -> Json { return f.report.refine_iterations; }},
     {"curve_iterations", [](const Fitted &f) -> Json { return f.report.curve_iterations; }},
     {"seconds", [](const Fitted &f) { return number(f.report.seconds); }},
+    {"check_seconds", [](const Fitted &f) { return number(f.report.check_seconds); }},
     {"options", [](const Fitted &f) -> Json { return f.options; }},
     {"version", [](const Fitted &) -> Json { return smx_version(); }},
 };

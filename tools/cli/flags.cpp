@@ -21,9 +21,11 @@ bool is_square(std::uint32_t value) {
 
 void add_fit_flags(CLI::App &command, FitFlags &flags) {
     const auto parse_lobes = [](const std::string &text) {
+        if (text == "auto") return SMX_LOBES_AUTO;
         return static_cast<std::uint32_t>(parse_count(text, lobes_range));
     };
-    add_parsed(command, "--lobes", flags.lobes, parse_lobes, "Beckmann lobes to fit, 1 to 64 (default 8)")
+    add_parsed(command, "--lobes", flags.lobes, parse_lobes,
+               "Beckmann lobes to fit, 1 to 64, or auto: as few as explain the material (default 8)")
         ->type_name("N");
     add_choice(command, "--model", flags.model, models,
                "One Fresnel curve per channel for all lobes, or one for each (default per-lobe)")
@@ -31,7 +33,8 @@ void add_fit_flags(CLI::App &command, FitFlags &flags) {
 }
 
 std::string options_text(const FitFlags &flags) {
-    return std::string("--model ") + word_for(flags.model, models) + " --lobes " + std::to_string(flags.lobes);
+    return std::string("--model ") + word_for(flags.model, models) + " --lobes " +
+           (flags.lobes == SMX_LOBES_AUTO ? "auto" : std::to_string(flags.lobes));
 }
 
 void add_render_flags(CLI::App &command, RenderFlags &flags) {
