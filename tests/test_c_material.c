@@ -169,6 +169,35 @@ static void check_getters(smx_material material) {
     OK(smx_material_get_fresnel(material, theta_d, NULL, 6));
 }
 
+/* Figures of the fit: `made` is from arrays and has none. */
+static void check_fit_figures(smx_material made) {
+    smx_brdf brdf = c_brdf();
+    smx_density density = NULL;
+    smx_material fitted = NULL;
+    smx_material_info info = SMX_MATERIAL_INFO_INIT;
+    double alpha[SMX_MAX_LOBES] = {-7.0}, curves[SMX_MAX_LOBES * 3 * SMX_CURVE_COEFFICIENTS] = {-7.0};
+    double theta_o[SMX_ALBEDO_ANGLES] = {-7.0}, table[SMX_ALBEDO_ANGLES * 3] = {-7.0},
+           fit[SMX_ALBEDO_ANGLES * 3] = {-7.0};
+    FAILS(SMX_NO_SOLUTION, "deviations", smx_material_get_deviations(made, alpha, curves, 2));
+    FAILS(SMX_NO_SOLUTION, "albedo", smx_material_get_albedo(made, theta_o, table, fit));
+    OK(smx_density_create(brdf, NULL, &density));
+    OK(smx_material_fit(density, NULL, &fitted));
+    OK(smx_material_get_info(fitted, &info));
+    INVALID("material", smx_material_get_deviations(NULL, alpha, curves, info.lobes));
+    INVALID("count", smx_material_get_deviations(fitted, alpha, curves, info.lobes + 1));
+    INVALID("material", smx_material_get_albedo(NULL, theta_o, table, fit));
+    CHECK(alpha[0] == -7.0 && curves[0] == -7.0 && theta_o[0] == -7.0 && table[0] == -7.0 && fit[0] == -7.0);
+    OK(smx_material_get_deviations(fitted, alpha, NULL, info.lobes));
+    OK(smx_material_get_deviations(fitted, NULL, curves, info.lobes));
+    CHECK(alpha[0] > 0.0 && curves[0] != -7.0);
+    OK(smx_material_get_albedo(fitted, theta_o, NULL, NULL));
+    OK(smx_material_get_albedo(fitted, NULL, table, fit));
+    CHECK(theta_o[0] == 0.0 && table[0] > 0.0 && fit[0] > 0.0 && fit[0] <= 1.001);
+    smx_material_release(fitted);
+    smx_density_release(density);
+    smx_brdf_release(brdf);
+}
+
 static void check_files(smx_material material) {
     smx_material loaded = (smx_material)UNTOUCHED;
     INVALID("path", smx_material_load(NULL, &loaded));
@@ -187,6 +216,7 @@ int main(void) {
     check_most_lobes();
     check_fit();
     check_getters(material);
+    check_fit_figures(material);
     check_files(material);
     smx_material_release(material);
     return c_check_result();

@@ -196,7 +196,7 @@ TEST(FitStages, TheWholeProblemHasItsGradient) {
 }
 
 TEST(FitStages, TheEnergyBoundHasItsGradient) {
-    const PerLobeFit fit = start({0.5, 1.0, 3.0}); // wide: every coefficient is seen from everywhere
+    const PerLobeFit fit = start({1.0, 3.0, 8.0}); // wide: every coefficient is seen from everywhere
     std::vector<EnergyBound> energy;
     for (const Eigen::MatrixXd &shares : data().albedo.shares(fit.alphas)) energy.push_back({shares, {0.3, 1e6, 0.1}});
     PerLobeProblem problem(data().base, fit, energy);
