@@ -153,6 +153,7 @@ smx_status smx_density_get_info(smx_density density, smx_density_info *info) {
         info->converged = d.converged;
         info->change = d.change;
         info->alpha = d.alpha();
+        copy_text(info->sha256, d.sha256);
     });
 }
 

@@ -44,8 +44,9 @@ smx_status smx_baseline_fit(smx_brdf brdf, smx_baseline kind, smx_baseline_repor
         const BaselineFit fit = fit_baseline(*brdf->object, static_cast<Baseline>(kind));
         report->alpha = fit.alpha;
         std::copy(fit.f0.begin(), fit.f0.end(), report->f0);
+        std::copy(fit.f90.begin(), fit.f90.end(), report->f90);
         std::copy(fit.kd.begin(), fit.kd.end(), report->kd);
-        report->brdf_residual = fit.residual;
+        report->residual = fit.residual;
         report->iterations = fit.iterations;
         copy_text(report->message, fit.message);
         report->seconds = fit.seconds;

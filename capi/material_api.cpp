@@ -109,8 +109,42 @@ smx_status smx_material_get_report(smx_material material, smx_fit_report *report
         report->curve_iterations = r.curve_iterations;
         report->brdf_residual_start = r.brdf_residual_start;
         report->brdf_residual = r.brdf_residual;
+        report->displaced_share = r.displaced_share;
         copy_text(report->curve_message, r.curve_message);
+        report->base_relrmse = r.base_relrmse;
+        report->displaced_relrmse = r.displaced_relrmse;
+        report->displaced_relrmse_shared = r.displaced_relrmse_shared;
+        copy_text(report->choice, r.choice);
         report->seconds = r.seconds;
+        report->check_seconds = r.check_seconds;
+    });
+}
+
+smx_status smx_material_get_deviations(smx_material material, double *alpha, double *curves, size_t count) {
+    return guarded([&] {
+        require_pointer(material, "material");
+        const Material &m = *material->object;
+        const Deviations &deviations = m.report.deviations;
+        require(count == m.lobes.size(), "count is ", count, "; the material has ", m.lobes.size(), " lobes");
+        if (deviations.alpha.empty()) fail(Fault::NoSolution, m.name, " is not a refined per-lobe fit: no deviations");
+        if (alpha) std::copy(deviations.alpha.begin(), deviations.alpha.end(), alpha);
+        for (const auto &lobe : deviations.curves)
+            for (const std::vector<double> &channel : lobe)
+                if (curves) curves = std::copy(channel.begin(), channel.end(), curves);
+    });
+}
+
+smx_status smx_material_get_albedo(smx_material material, double *theta_o, double *table, double *fit) {
+    return guarded([&] {
+        require_pointer(material, "material");
+        const AlbedoReport &albedo = material->object->report.albedo;
+        if (albedo.theta_o.empty())
+            fail(Fault::NoSolution, material->object->name, " was not fitted to a BRDF: no albedo");
+        if (theta_o) std::copy(albedo.theta_o.begin(), albedo.theta_o.end(), theta_o);
+        for (const Rgb &value : albedo.table)
+            if (table) table = std::copy(value.begin(), value.end(), table);
+        for (const Rgb &value : albedo.fit)
+            if (fit) fit = std::copy(value.begin(), value.end(), fit);
     });
 }
 

@@ -1,5 +1,6 @@
-// smx_render_*, smx_material_eval
+// smx_render_*, smx_material_eval, smx_brdf_eval
 #include "draw_geometry.h"
+#include "eval_table.h"
 #include "handles.h"
 #include "integrate_reference.h"
 #include "shade_filtered.h"
@@ -86,6 +87,18 @@ smx_status smx_material_eval(smx_context context, smx_material material, const s
         require_pointer(fcos, "fcos");
         shade_filtered_pairs(*context->object, *material->object, to_cpp(*displacement), static_cast<Masking>(masking),
                              count, wi, wo, fcos);
+    });
+}
+
+smx_status smx_brdf_eval(smx_context context, smx_brdf brdf, smx_lookup lookup, size_t count, const float *wi,
+                         const float *wo, float *f) {
+    return guarded([&] {
+        require_pointer(context, "context");
+        require_pointer(brdf, "brdf");
+        require_pointer(wi, "wi");
+        require_pointer(wo, "wo");
+        require_pointer(f, "f");
+        eval_table(*context->object, *brdf->object, static_cast<Lookup>(lookup), count, wi, wo, f);
     });
 }
 }

@@ -199,11 +199,12 @@ typedef struct smx_density_info {
     uint32_t fresnel_knots; /* theta_d = k pi/180, k = 0..knots-1 */
     uint32_t iterations;
     int converged;
-    double change; /* relative L1 change of the last iteration */
-    double alpha;  /* sqrt of the mean squared slope: the one-lobe fit */
+    double change;   /* relative L1 change of the last iteration */
+    double alpha;    /* sqrt of the mean squared slope: the one-lobe fit */
+    char sha256[65]; /* of the table, as smx_brdf_info has it, or of the CSV file; "" for a density from samples */
 } smx_density_info;
 #define SMX_DENSITY_INFO_INIT \
-    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0 }
+    { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0, "" }
 
 /* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
 SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
@@ -249,13 +250,19 @@ typedef enum smx_model {
     SMX_MODEL_PER_LOBE = 1 /* f = sum_k F_k(theta_d) D_k(wh) G2_k(wi, wo) / (4 cos_i cos_o) */
 } smx_model;
 
+/* As number of lobes: the smallest whose next lobe lowers the Kullback-Leibler divergence of mixture and slope density
+ * by less than 1e-3 nat and the mean relRMSE on displaced spheres by less than 0.005. */
+#define SMX_LOBES_AUTO 0u
+
 typedef struct smx_fit_options {
     size_t size;
     smx_model model;
-    uint32_t lobes;          /* 1..SMX_MAX_LOBES; the fit may end with fewer where lobes merge or die */
+    uint32_t lobes;          /* 1..SMX_MAX_LOBES; the fit may end with fewer where lobes merge or die. Or
+                                SMX_LOBES_AUTO */
     double tolerance;        /* EM stops when the mean log likelihood gains less than this, > 0 */
     uint32_t max_iterations; /* of EM, 1..1000000 */
-    int refine;              /* nonzero: least-squares refinement of weights and alphas (Ceres) after EM */
+    int refine;              /* nonzero: least-squares refinement (Ceres): of weights and alphas after EM, of alphas
+                                and curves of the per-lobe model */
 } smx_fit_options;
 #define SMX_FIT_OPTIONS_INIT \
     { sizeof(smx_fit_options), SMX_MODEL_PER_LOBE, 8, 1e-6, 20000, 1 }
@@ -274,11 +281,17 @@ typedef struct smx_fit_report {
     uint32_t curve_iterations;  /* the per-lobe model's refinement in BRDF space: its iterations, */
     double brdf_residual_start; /*   relative error in BRDF space before it (root mean square over theta_d), */
     double brdf_residual;       /*   after it, */
-    char curve_message[256];    /*   and the solver's verdict */
-    double seconds;
+    double displaced_share;     /*   share of displaced surfaces in what it minimised, beside the base's 1, */
+    char curve_message[256];    /*   and the solver's own report */
+    double base_relrmse;        /* estimates of relRMSE on spheres under the experiment's three lights, as means: of */
+    double displaced_relrmse;   /*   the base; on displaced ones, alpha 0.1, 0.25 and 0.5; and the latter */
+    double displaced_relrmse_shared; /* of the shared model with as many lobes. 0 for a density without a BRDF */
+    char choice[512];                /* why this number of lobes or this start, where there was a choice */
+    double seconds;                  /* of EM, the curves' start and the refinements */
+    double check_seconds;            /* of the estimates, the deviations, the albedo, and a fit that was not kept */
 } smx_fit_report;
 #define SMX_FIT_REPORT_INIT \
-    { sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, "", 0.0 }
+    { sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, 0.0, "", 0.0, 0.0, 0.0, "", 0.0, 0.0 }
 
 /* Zero-mean isotropic Beckmann lobes, in ascending alpha, with their Fresnel curves (smx_model). Immutable. */
 typedef struct smx_material_s *smx_material;
@@ -296,10 +309,11 @@ typedef struct smx_material_info {
 #define SMX_MATERIAL_INFO_INIT \
     { sizeof(smx_material_info), "", "", "", SMX_MODEL_SHARED, 0, 0, 0 }
 
-/* Fits `lobes` lobes to a slope density: EM in log space, then Ceres; the shared model takes over the density's Fresnel
- * curves, the per-lobe model fits its own to the table and refines alphas and curves together.
- * Statuses: INVALID_ARGUMENT (also the per-lobe model, the default, for a density without a BRDF), NO_SOLUTION,
- * OUT_OF_MEMORY. */
+/* Fits `lobes` lobes to a slope density: EM in log space from several starts, then Ceres; the shared model takes over
+ * the density's Fresnel curves, the per-lobe model fits its own to the table and refines alphas and curves together,
+ * also to the table as it looks on displaced surfaces, and reflects no more than max(1, the table) towards any
+ * direction. Statuses: INVALID_ARGUMENT (also the per-lobe model, the default, for a density without a BRDF),
+ * NO_SOLUTION, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_fit(smx_density density, const smx_fit_options *options, smx_material *material);
 
 /* What a material is made of, for smx_material_create. */
@@ -327,6 +341,21 @@ SMX_API smx_status smx_material_get_info(smx_material material, smx_material_inf
 /* How the fit went; a material made from arrays has a report of zeros but for the number of lobes. Statuses:
  * INVALID_ARGUMENT. */
 SMX_API smx_status smx_material_get_report(smx_material material, smx_fit_report *report);
+
+/* Standard deviations of a refined per-lobe fit's parameters, from the covariance of its least-squares problem scaled
+ * by the residual variance: alpha [lobes], and curves [lobes][3][SMX_CURVE_COEFFICIENTS] of the curves' B-spline
+ * coefficients (docs/material-format.md says where in theta_d each sits). SMX_HELD marks a parameter at a bound, which
+ * was not free. `count` must be info.lobes; either array may be NULL.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (another material has none). */
+#define SMX_CURVE_COEFFICIENTS 13
+#define SMX_HELD (-1.0)
+SMX_API smx_status smx_material_get_deviations(smx_material material, double *alpha, double *curves, size_t count);
+
+/* Directional albedo of a fitted material and of its table: theta_o [SMX_ALBEDO_ANGLES] in radians; table, fit
+ * [SMX_ALBEDO_ANGLES][3]. A refined per-lobe fit has at most max(1, the table's). Any array may be NULL.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (a material that was not fitted to a BRDF has none). */
+#define SMX_ALBEDO_ANGLES 8
+SMX_API smx_status smx_material_get_albedo(smx_material material, double *theta_o, double *table, double *fit);
 
 /* Copies the lobes; `count` must be info.lobes. Statuses: INVALID_ARGUMENT. */
 SMX_API smx_status smx_material_get_lobes(smx_material material, smx_lobe *lobes, size_t count);
@@ -377,7 +406,7 @@ SMX_API smx_status smx_brdf_compare(smx_brdf brdf, smx_brdf reference, smx_brdf_
 SMX_API smx_status smx_material_brdf_errors(smx_material material, smx_brdf reference, smx_brdf_errors *errors);
 
 /* Models of a few parameters, to compare a mixture with:
- * f = (f0 + (1 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
+ * f = (f0 + (f90 - f0)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o) + kd / pi, with height-correlated Smith masking. */
 typedef enum smx_baseline {
     SMX_BASELINE_BECKMANN = 0,   /* one Beckmann lobe, kd = 0 */
     SMX_BASELINE_GGX = 1,        /* one GGX lobe, kd = 0 */
@@ -386,20 +415,24 @@ typedef enum smx_baseline {
 
 typedef struct smx_baseline_report {
     size_t size;
-    double alpha;         /* 1e-4..1e4 */
-    double f0[3];         /* per channel, >= 0 */
-    double kd[3];         /* per channel, >= 0 */
-    double brdf_residual; /* relative, root mean square over the fit's samples; comparable with smx_fit_report's */
+    double alpha;    /* 1e-4..1e4 */
+    double f0[3];    /* per channel, >= 0 */
+    double f90[3];   /* per channel, >= 0 */
+    double kd[3];    /* per channel, >= 0 */
+    double residual; /* log error of the cells that were fitted, relative to that of a black model */
     uint32_t iterations;
     char message[256]; /* the solver's verdict */
     double seconds;    /* of the fit, the errors apart */
     smx_brdf_errors errors;
 } smx_baseline_report;
-#define SMX_BASELINE_REPORT_INIT \
-    { sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, SMX_BRDF_ERRORS_INIT }
+#define SMX_BASELINE_REPORT_INIT                                                                              \
+    {                                                                                                         \
+        sizeof(smx_baseline_report), 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, "", 0.0, \
+            SMX_BRDF_ERRORS_INIT                                                                              \
+    }
 
-/* Fits a baseline to a table: the samples, weights and robust loss of the per-lobe model's refinement, from several
- * starts. Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
+/* Fits a baseline to a table by the log error over a share of its cells, from several starts (docs/metrics.md).
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (a table of zeros, no start that converges), OUT_OF_MEMORY. */
 SMX_API smx_status smx_baseline_fit(smx_brdf brdf, smx_baseline kind, smx_baseline_report *report);
 
 /* ----------------------------------------------------------------------------------------------- scene and rendering */
@@ -485,6 +518,14 @@ SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *sce
  * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
                                      smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
+
+/* f of the measured table in 1/sr, NOT times a cosine, for `count` pairs of directions. wi, wo, f: [count][3], packed.
+ * Half and difference angles of the pair, phi_d modulo pi, values past the last theta_h or theta_d are the last node's
+ * (smx_lookup; a table over the full azimuth is the mean of its halves). 0 where either direction is not above the
+ * surface. Not normalised: directions must be unit vectors. The table goes to the device at every call: give many pairs
+ * at once. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
+SMX_API smx_status smx_brdf_eval(smx_context context, smx_brdf brdf, smx_lookup lookup, size_t count, const float *wi,
+                                 const float *wo, float *f);
 
 /* ------------------------------------------------------------------------------------------------------------- images */
 

@@ -1,16 +1,16 @@
 // Fresnel curves as the fit sees them: quadratic B-splines over theta_d with non-negative coefficients, so that a curve
 // is smooth and cannot be negative, and the model stays linear in them (de Boor 1978, "A Practical Guide to Splines").
+// Breakpoints are denser towards grazing, where curves bend. (Piecewise linear curves on as many knots are off by 5 %
+// between two of them on a dielectric at theta_d = 57.5 degrees.)
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-namespace smx {
+#include "material.h"
 
-// 13 coefficients, breakpoints denser towards grazing, where curves bend. (Piecewise linear curves on as many knots are
-// off by 5 % between two of them on a dielectric at theta_d = 57.5 degrees.)
-constexpr std::size_t curve_coefficients = 13;
+namespace smx {
 
 // The three coefficients that make the curve at an angle 0..pi/2, and their weights, which sum to 1.
 struct CurveShares {

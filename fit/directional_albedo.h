@@ -17,7 +17,7 @@ namespace smx {
 class DirectionalAlbedo {
   public:
     // Of wo. Nearer the horizon a table's rows of theta_d do not resolve what they hold.
-    static constexpr std::array<double, 8> theta_o_degrees = {0, 15, 30, 45, 55, 65, 75, 80};
+    static constexpr std::array<double, albedo_angles> theta_o_degrees = {0, 15, 30, 45, 55, 65, 75, 80};
 
     explicit DirectionalAlbedo(const Brdf &brdf);
 

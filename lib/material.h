@@ -23,6 +23,12 @@ struct Lobe {
     double alpha;
 };
 
+// Of a fitted curve over theta_d (fit/curve_basis.h).
+constexpr std::size_t curve_coefficients = 13;
+
+// Of a fit's report on the directional albedo (fit/directional_albedo.h).
+constexpr std::size_t albedo_angles = 8;
+
 // Standard deviations of the per-lobe model's parameters; empty where there are none.
 struct Deviations {
     static constexpr double held = -1.0; // at a bound: the parameter was not free

@@ -107,6 +107,14 @@ void check_values(const Material &m) {
     if (deviations.alpha.size() != deviations.curves.size() ||
         (!deviations.alpha.empty() && deviations.alpha.size() != m.lobes.size()))
         fail(Fault::BadFormat, "$.fit.deviations: must be of ", m.lobes.size(), " lobes, or empty");
+    for (const auto &lobe : deviations.curves)
+        for (const std::vector<double> &channel : lobe)
+            if (channel.size() != curve_coefficients)
+                fail(Fault::BadFormat, "$.fit.deviations.curves: a channel has ", curve_coefficients, " values, not ",
+                     channel.size());
+    const std::size_t angles = m.report.albedo.theta_o.size();
+    if (angles != 0 && angles != albedo_angles)
+        fail(Fault::BadFormat, "$.fit.albedo.theta_o: must hold ", albedo_angles, " angles or none, not ", angles);
     for (std::size_t k = 1; k < m.lobes.size(); ++k)
         if (m.lobes[k].alpha < m.lobes[k - 1].alpha)
             fail(Fault::BadFormat, "$.lobes[", k, "].alpha is ", m.lobes[k].alpha, ", below the lobe before it");

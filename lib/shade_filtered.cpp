@@ -1,10 +1,10 @@
 #include "shade_filtered.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "device_buffer.h"
+#include "direction_pairs.h"
 #include "error.h"
 
 namespace smx {
@@ -62,14 +62,6 @@ std::vector<float> packed_knots(const Material &material) {
     return knots;
 }
 
-// [count][3] to [3][stride], stride a multiple of the vector width; what pads it are directions below the surface.
-std::vector<float> to_planes(const float *packed, std::size_t count, std::size_t stride) {
-    std::vector<float> planes(3 * stride, -1.0f);
-    for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis) planes[axis * stride + k] = packed[3 * k + axis];
-    return planes;
-}
-
 } // namespace
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
@@ -115,8 +107,7 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
     validate(displacement);
     require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
             "; it must be 0 or 1");
-    constexpr std::size_t most = std::size_t{std::numeric_limits<cl_int>::max()} / 3 - 16;
-    require(count <= most, "count is ", count, "; it must be 0..", most);
+    require_pair_count(count);
     const std::size_t stride = round_up(count, context.width());
     if (count == 0) return;
 
@@ -143,8 +134,7 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
 
     std::vector<float> planes(3 * stride);
     context.queue().enqueueReadBuffer(out, CL_TRUE, 0, planes.size() * sizeof(float), planes.data());
-    for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t channel = 0; channel < 3; ++channel) fcos[3 * k + channel] = planes[channel * stride + k];
+    from_planes(planes, count, fcos);
 }
 
 } // namespace smx

@@ -21,15 +21,14 @@ Cut cut_at(double theta_d, Lookup lookup) {
     return {below, above, lookup == Lookup::Nearest ? 0.0 : knot - static_cast<double>(below)};
 }
 
-// Mean over the azimuths that are the same modulo pi.
+} // namespace
+
 double folded(const Brdf &brdf, std::size_t channel, std::size_t h, std::size_t d, std::size_t column) {
     double sum = 0.0, count = 0.0;
     for (std::size_t p = column; p < brdf.phi_d_count(); p += slice_columns, ++count)
         sum += brdf.value(channel, brdf.cell(h, d, p));
     return sum / count;
 }
-
-} // namespace
 
 std::vector<float> table_slice(const Brdf &brdf, double theta_d, Lookup lookup) {
     const Cut cut = cut_at(theta_d, lookup);

@@ -15,4 +15,7 @@ std::vector<float> table_slice(const Brdf &brdf, double theta_d, Lookup lookup);
 // Columns over 0..pi, without the repeated one.
 constexpr std::size_t slice_columns = 180;
 
+// Mean over the azimuths that are the same modulo pi.
+double folded(const Brdf &brdf, std::size_t channel, std::size_t theta_h, std::size_t theta_d, std::size_t column);
+
 } // namespace smx

@@ -37,6 +37,17 @@ namespace {
     _exit(127);
 }
 
+// Looks every few milliseconds; a child that has ended takes no signal any more.
+void send_when(pid_t child, const CliSetting &setting) {
+    siginfo_t ended{};
+    while (!setting.signal_when()) {
+        if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0)
+            return;
+        usleep(2000);
+    }
+    kill(child, setting.signal);
+}
+
 } // namespace
 
 CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setting) {
@@ -46,6 +57,7 @@ CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setti
     if (child < 0) throw std::runtime_error("cannot fork");
     if (child == 0) become_cli(arguments, setting, out, err);
     int status = 0;
+    if (setting.signal != 0) send_when(child, setting);
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait");
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }

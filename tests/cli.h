@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@ struct CliResult {
 struct CliSetting {
     std::vector<std::pair<std::string, std::string>> environment;
     std::size_t file_size_limit = 0; // bytes; 0: none. Longer writes fail, for root too
+    int signal = 0;                  // sent once `signal_when` is true; 0: none
+    std::function<bool()> signal_when = {};
 };
 
 CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setting = {});

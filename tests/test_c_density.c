@@ -57,7 +57,11 @@ static void check_fit(void) {
     smx_density density = NULL;
     smx_material material = (smx_material)UNTOUCHED;
     smx_material_info info = SMX_MATERIAL_INFO_INIT;
+    smx_density_info density_info = SMX_DENSITY_INFO_INIT;
     OK(smx_density_from_samples("samples", SMX_DENSITY_P22, 3, theta, values, &density));
+    density_info.sha256[0] = 'x';
+    OK(smx_density_get_info(density, &density_info));
+    CHECK(density_info.sha256[0] == '\0');
     INVALID("no BRDF", smx_material_fit(density, NULL, &material));
     INVALID("shared", smx_material_fit(density, &options, &material));
     options.model = SMX_MODEL_SHARED;

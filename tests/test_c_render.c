@@ -1,4 +1,4 @@
-/* smx_render_* and smx_material_eval with every bad argument. */
+/* smx_render_*, smx_material_eval and smx_brdf_eval with every bad argument. */
 #include "c_objects.h"
 
 static smx_context context;
@@ -200,6 +200,22 @@ static void check_eval(void) {
     CHECK(fcos[0] > 0.0f && fcos[2] > 0.0f);
 }
 
+static void check_brdf_eval(void) {
+    const float up[3] = {0.0f, 0.0f, 1.0f};
+    float f[3] = {-7.0f, -7.0f, -7.0f};
+    INVALID("context", smx_brdf_eval(NULL, brdf, SMX_LOOKUP_LINEAR, 1, up, up, f));
+    INVALID("brdf", smx_brdf_eval(context, NULL, SMX_LOOKUP_LINEAR, 1, up, up, f));
+    INVALID("wi", smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, 1, NULL, up, f));
+    INVALID("wo", smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, 1, up, NULL, f));
+    INVALID("f is null", smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, 1, up, up, NULL));
+    INVALID("lookup is 7", smx_brdf_eval(context, brdf, (smx_lookup)7, 1, up, up, f));
+    INVALID("count", smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, SIZE_MAX, up, up, f));
+    OK(smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, 0, up, up, f));
+    CHECK(f[0] == -7.0f && f[1] == -7.0f && f[2] == -7.0f);
+    OK(smx_brdf_eval(context, brdf, SMX_LOOKUP_LINEAR, 1, up, up, f));
+    CHECK(f[0] > 0.0f && f[2] > 0.0f);
+}
+
 /* Images and contexts live on when what made them is released. */
 static void check_release_order(void) {
     smx_scene scene = SMX_SCENE_INIT;
@@ -223,6 +239,7 @@ int main(void) {
     check_handles();
     check_cancel();
     check_eval();
+    check_brdf_eval();
     check_release_order();
     smx_image_release(NULL);
     smx_material_release(material);

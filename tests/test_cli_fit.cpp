@@ -1,4 +1,5 @@
-// slopemix synth and fit: tables and material files, what is reported, and what is left after a failure.
+// slopemix synth and fit: tables and material files, what is reported, and what is left after a failure. Many at a
+// time: test_cli_batch.cpp.
 #include <gtest/gtest.h>
 
 #include "cli.h"

@@ -60,6 +60,29 @@ TEST(CliInputs, DensitiesTakeTheSharedModel) {
     EXPECT_TRUE(both.json().at("materials").at(1).at("model_note").is_null());
 }
 
+TEST(CliInputs, DensitiesAreUpToDateByTheirFile) {
+    const test::TempDir dir;
+    const std::string file = dir / "paint.csv", svg = dir / "out/paint.svg";
+    const auto is_up_to_date = [&](const std::vector<std::string> &more) {
+        const test::CliResult run =
+            test::cli(test::with({"fit", "density:" + file, "--out", dir / "out", "--lobes", "2", "--json"}, more));
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.json().at("materials").at(0).at("up_to_date").get<bool>();
+    };
+    test::write_file(file, density_rows);
+    EXPECT_FALSE(is_up_to_date({}));
+    EXPECT_TRUE(is_up_to_date({"--model", "shared"}));
+    const json row = json::parse(test::read_file(dir / "out/fits.json")).at("materials").at(0);
+    EXPECT_EQ(row.at("options"), "--model shared --lobes 2");
+    EXPECT_TRUE(is_up_to_date({"--plot", "--metrics"})); // without a BRDF there are no figures to miss
+    const std::string picture = test::read_file(svg);
+    EXPECT_NE(picture.find("Slope density"), std::string::npos);
+    EXPECT_EQ(picture.find("Fresnel"), std::string::npos);
+    EXPECT_EQ(picture.find("slice"), std::string::npos);
+    test::write_file(file, density_rows + std::string("1.55,0\n"));
+    EXPECT_FALSE(is_up_to_date({}));
+}
+
 TEST(CliInputs, DensitiesAreRefusedWhereABrdfIsNeeded) {
     const test::TempDir dir;
     test::write_file(dir / "paint.csv", density_rows);
@@ -104,6 +127,10 @@ TEST(CliCompareTables, WrongUsageIsRefused) {
     EXPECT_CLI_FAILS(2, "--compare", {"fit", ggx, "--compare", ggx, "--out", dir.path()});
     EXPECT_CLI_FAILS(2, "one INPUT", {"fit", ggx, "builtin:conductor", "--compare", ggx});
     EXPECT_CLI_FAILS(2, "--out", {"fit", ggx});
+    const std::vector<std::vector<std::string>> of_a_fit = {{"--lobes", "2"}, {"--model", "shared"}, {"--jobs", "1"},
+                                                            {"--refit"},      {"--metrics"},         {"--plot"}};
+    for (const std::vector<std::string> &flag : of_a_fit)
+        EXPECT_CLI_FAILS(2, flag[0] + " excludes --compare", test::with({"fit", ggx, "--compare", ggx}, flag));
     EXPECT_CLI_FAILS(1, "no-such.binary", {"fit", ggx, "--compare", "no-such.binary"});
     EXPECT_TRUE(dir.names().empty());
 }

@@ -1,204 +1,148 @@
-// slopemix fit: measured tables to material files.
+// slopemix fit: measured tables and slope densities to material files, many at a time; what is up to date stays.
 #include <CLI/CLI.hpp>
-#include <filesystem>
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "commands.h"
 #include "fit_compare.h"
-#include "flags.h"
-#include "input.h"
+#include "fit_job.h"
+#include "fit_report.h"
+#include "fit_row.h"
+#include "fit_table.h"
+#include "fit_worker.h"
 #include "output.h"
 #include "progress.h"
-#include "text.h"
+#include "workers.h"
 
 namespace slopemix::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct FitJob {
-    std::vector<std::string> inputs;
-    std::string out, compare;
-    FitFlags fit;
-    bool json = false;
-
-    std::string file_for(const std::string &input) const {
-        return (std::filesystem::path(out) / (name_of(input) + ".json")).string();
-    }
-};
-
-struct Fitted {
-    std::string input, file;
-    smx_model model;
-    std::vector<smx_lobe> lobes;
-    smx_fit_report report;
-};
+constexpr CountRange jobs_range = {1, 256};
 
 void refuse_equal_names(const FitJob &job) {
-    std::map<std::string, std::string> input_of_file;
+    std::map<std::string, std::string> input_of_file = {{FitTable::json_in(job.out).string(), "the table of the fits"}};
     for (const std::string &input : job.inputs) {
-        const auto [other, is_new] = input_of_file.emplace(job.file_for(input), input);
+        const std::string file = job.file_for(input).string();
+        const auto [other, is_new] = input_of_file.emplace(file, "'" + input + "'");
         if (!is_new)
-            throw CLI::ValidationError(
-                "INPUT", "'" + other->second + "' and '" + input + "' would both be written to " + other->first);
+            throw CLI::ValidationError("INPUT",
+                                       other->second + " and '" + input + "' would both be written to " + file);
     }
 }
 
-std::vector<smx_lobe> lobes_of(const Material &material) {
-    std::vector<smx_lobe> lobes(info_of(material).lobes);
-    check(smx_material_get_lobes(material.get(), lobes.data(), lobes.size()));
-    return lobes;
-}
-
-Fitted fit_one(const FitJob &job, const std::string &input) {
-    const Material material = fit(open_density(input), fit_flags_for(input, job.fit));
-    const std::string file = job.file_for(input);
-    make_folder_of(file);
-    check(smx_material_save(material.get(), file.c_str()));
-    return {input, file, info_of(material).model, lobes_of(material), report_of(material)};
-}
-
-constexpr const char *density_note = "a slope density has no BRDF to fit other curves to: F = 1";
-
-Json to_json(const Fitted &fitted) {
-    const smx_fit_report &report = fitted.report;
-    const bool per_lobe = fitted.model == SMX_MODEL_PER_LOBE;
-    Json lobes = Json::array();
-    for (const smx_lobe &lobe : fitted.lobes) lobes.push_back({{"weight", lobe.weight}, {"alpha", lobe.alpha}});
-    return {{"input", fitted.input},
-            {"name", name_of(fitted.input)},
-            {"file", fitted.file},
-            {"model", word_for(fitted.model, models)},
-            {"model_note", is_density(fitted.input) ? Json(density_note) : Json()},
-            {"lobes", lobes},
-            {"log_likelihood_em", report.log_likelihood_em},
-            {"log_likelihood", report.log_likelihood},
-            {"residual_em", report.residual_em},
-            {"residual", report.residual},
-            {"iterations",
-             {{"inversion", report.inversion_iterations},
-              {"em", report.em_iterations},
-              {"refine", report.refine_iterations},
-              {"curves", report.curve_iterations}}},
-            {"brdf_residual_start", per_lobe ? Json(report.brdf_residual_start) : Json()},
-            {"brdf_residual", per_lobe ? Json(report.brdf_residual) : Json()},
-            {"refine_message", report.refine_message},
-            {"curve_message", report.curve_message},
-            {"seconds", report.seconds}};
-}
-
-std::string refined(double before, double after) {
-    return fixed(after, 6) + " (before the refinement " + fixed(before, 6) + ")";
-}
-
-void print_text(const Fitted &fitted) {
-    const smx_fit_report &report = fitted.report;
-    std::cout << name_of(fitted.input) << " -> " << fitted.file << ", " << word_for(fitted.model, models);
-    if (is_density(fitted.input)) std::cout << " (" << density_note << ')';
-    std::cout << '\n';
-    std::vector<TextRow> rows = {{"  lobe", "weight", "alpha"}};
-    for (const smx_lobe &lobe : fitted.lobes)
-        rows.push_back({std::to_string(rows.size()), fixed(lobe.weight, 6), general(lobe.alpha, 5)});
-    print_table(std::cout, rows);
-    Facts facts = {{"  log likelihood", refined(report.log_likelihood_em, report.log_likelihood)},
-                   {"  residual", refined(report.residual_em, report.residual)}};
-    std::string iterations = std::to_string(report.inversion_iterations) + " inversion, " +
-                             std::to_string(report.em_iterations) + " EM, " + std::to_string(report.refine_iterations) +
-                             " refinement";
-    if (fitted.model == SMX_MODEL_PER_LOBE) {
-        facts.emplace_back("  BRDF residual", refined(report.brdf_residual_start, report.brdf_residual));
-        iterations += ", " + std::to_string(report.curve_iterations) + " curves";
+void require_writable_outputs(const FitJob &job) {
+    for (const std::string &input : job.inputs) {
+        require_writable(job.file_for(input));
+        if (job.plot) require_writable(job.plot_for(input));
     }
-    facts.emplace_back("  iterations", iterations);
-    facts.emplace_back("  seconds", fixed(report.seconds, 3));
-    print_facts(std::cout, facts);
-    std::cout << std::endl;
+    require_writable(FitTable::json_in(job.out));
+    require_writable(FitTable::csv_in(job.out));
 }
 
-// Fits every input, also after one that fails.
+// All inputs on their threads. What is finished is in the table, and in the outcomes, whatever comes after it.
 class FitRun {
   public:
-    explicit FitRun(const FitJob &job) : job_(job), progress_(static_cast<double>(job.inputs.size())) {}
+    explicit FitRun(const FitJob &job) : job_(job), table_(job.out), worker_(job, table_) {}
 
-    void process(const std::string &input) {
-        progress_.start("fitting " + name_of(input), 1.0);
-        try {
-            report(fit_one(job_, input));
-        } catch (const Cancelled &) {
-            throw;
-        } catch (const CommandError &error) {
-            report_failure(input, error.what());
-        }
-        progress_.finish();
+    void process_all() {
+        Progress progress(static_cast<double>(job_.inputs.size()));
+        if (job_.inputs.size() > 1) progress.start("fitting", 0.0);
+        run_on_threads(
+            job_.inputs.size(), job_.jobs, [&](std::size_t index) { return worker_.process(index); },
+            [&](FitOutcome outcome) {
+                keep(outcome);
+                progress.advance(name_of(job_.inputs[outcome.index]), 1.0);
+            });
     }
 
-    const Json &materials() const { return materials_; }
-    const Json &failures() const { return failures_; }
+    void print() const { print_fits(job_, outcomes_); }
+
+    std::size_t report_failures() const {
+        std::size_t failures = 0;
+        for (const FitOutcome &outcome : outcomes_) {
+            if (outcome.error.empty()) continue;
+            ++failures;
+            std::cerr << "slopemix: " << outcome.error << '\n';
+        }
+        return failures;
+    }
 
   private:
-    void report(const Fitted &fitted) {
-        progress_.clear();
-        materials_.push_back(to_json(fitted));
-        if (!job_.json) print_text(fitted);
-    }
-
-    void report_failure(const std::string &input, const std::string &message) {
-        progress_.clear();
-        failures_.push_back({{"input", input}, {"error", message}});
-        std::cerr << "slopemix: " << message << '\n';
+    void keep(const FitOutcome &outcome) {
+        const auto later = [](const FitOutcome &a, const FitOutcome &b) { return a.index < b.index; };
+        outcomes_.insert(std::upper_bound(outcomes_.begin(), outcomes_.end(), outcome, later), outcome);
+        if (outcome.fitted) table_.put(fit_row(*outcome.fitted));
+        table_.save();
     }
 
     const FitJob &job_;
-    Progress progress_;
-    Json materials_ = Json::array(), failures_ = Json::array();
+    FitTable table_;
+    const FitWorker worker_;
+    std::vector<FitOutcome> outcomes_; // in the order of the inputs
 };
 
+void compare(const FitJob &job) {
+    if (job.inputs.size() != 1) throw CLI::ValidationError("--compare", "it takes one INPUT, the source");
+    compare_tables(job.compare, job.inputs[0], job.json);
+}
+
 void run(const FitJob &job) {
-    if (!job.compare.empty()) {
-        if (job.inputs.size() != 1) throw CLI::ValidationError("--compare", "it takes one INPUT, the source");
-        return compare_tables(job.compare, job.inputs[0], job.json);
-    }
+    if (!job.compare.empty()) return compare(job);
     if (job.out.empty()) throw CLI::RequiredError("--out");
     refuse_equal_names(job);
     for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
-    for (const std::string &input : job.inputs) require_writable(job.file_for(input));
-
+    require_writable_outputs(job);
     FitRun fits(job);
-    for (const std::string &input : job.inputs) fits.process(input);
-    if (job.json) {
-        const Json document = {
-            {"version", SMX_VERSION_STRING}, {"materials", fits.materials()}, {"failures", fits.failures()}};
-        std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    bool cancelled = false;
+    try {
+        fits.process_all();
+    } catch (const Cancelled &) {
+        cancelled = true;
     }
-    if (!fits.failures().empty())
-        throw CommandError(std::to_string(fits.failures().size()) + " of " + std::to_string(job.inputs.size()) +
-                           " inputs failed");
+    fits.print();
+    const std::size_t failures = fits.report_failures();
+    if (cancelled) throw CommandError("cancelled; the same command goes on from here");
+    if (failures > 0)
+        throw CommandError(std::to_string(failures) + " of " + std::to_string(job.inputs.size()) + " inputs failed");
 }
 
 } // namespace
 
 void add_fit(CLI::App &app) {
-    CLI::App *command =
-        app.add_subcommand("fit", "Fit measured tables or slope densities and write material files, DIR/<name>.json");
+    CLI::App *command = app.add_subcommand(
+        "fit",
+        "Fit measured tables or slope densities and write material files, DIR/<name>.json, and a row each of "
+        "DIR/fits.csv and .json");
     const auto job = std::make_shared<FitJob>();
+    job->jobs = std::clamp<std::size_t>(std::thread::hardware_concurrency(), jobs_range.low, jobs_range.high);
     command
         ->add_option("INPUT", job->inputs,
                      "MERL tables (.binary), builtin:NAME, analytic:KIND,... (see synth) or density:FILE.csv")
         ->required()
         ->type_name("");
-    CLI::Option *out = command->add_option("--out", job->out, "Folder of the material files")->type_name("DIR");
-    command
-        ->add_option("--compare", job->compare,
-                     "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
-        ->excludes(out)
-        ->type_name("OTHER.binary");
+    command->add_option("--out", job->out, "Folder of the material files")->type_name("DIR");
     add_fit_flags(*command, job->fit);
+    const auto parse_jobs = [](const std::string &text) { return parse_count(text, jobs_range); };
+    add_parsed(*command, "--jobs", job->jobs, parse_jobs, "Materials at the same time, 1 to 256 (default: the cores)")
+        ->type_name("N");
+    command->add_flag("--refit", job->refit, "Fit also what is up to date: same table, options and version");
+    command->add_flag("--metrics", job->metrics,
+                      "Also measure the errors of both models and of three baselines in BRDF space (docs/metrics.md), "
+                      "about 2 s a material, for the report, fits.csv and fits.json");
+    command->add_flag("--plot", job->plot, "Draw each fit with gnuplot: DIR/<name>.svg");
+    CLI::Option *compare =
+        command
+            ->add_option("--compare", job->compare,
+                         "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
+            ->type_name("OTHER.binary");
+    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--metrics", "--plot"})
+        compare->excludes(of_a_fit);
     command->add_flag("--json", job->json, "Print JSON");
     command->callback([job] { run(*job); });
 }

@@ -30,6 +30,10 @@ void add_fit_flags(CLI::App &command, FitFlags &flags) {
         ->each([&flags](const std::string &) { flags.model_given = true; });
 }
 
+std::string options_text(const FitFlags &flags) {
+    return std::string("--model ") + word_for(flags.model, models) + " --lobes " + std::to_string(flags.lobes);
+}
+
 void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
     add_parsed(command, "--res", flags.resolution, parse_resolution,
                "Resolution, one number for a square; the sphere fits the smaller side (default 128)")

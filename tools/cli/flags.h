@@ -67,6 +67,9 @@ struct FitFlags {
 
 void add_fit_flags(CLI::App &command, FitFlags &flags);
 
+// All of them as they would be given: two fits of a table with the same text are the same fit.
+std::string options_text(const FitFlags &flags);
+
 // What every image of a command has in common.
 struct RenderFlags {
     Resolution resolution = {128, 128};

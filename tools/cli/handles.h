@@ -58,6 +58,12 @@ inline smx_brdf_info info_of(const Brdf &brdf) {
     return info;
 }
 
+inline smx_density_info info_of(const Density &density) {
+    smx_density_info info = SMX_DENSITY_INFO_INIT;
+    check(smx_density_get_info(density.get(), &info));
+    return info;
+}
+
 inline smx_material_info info_of(const Material &material) {
     smx_material_info info = SMX_MATERIAL_INFO_INIT;
     check(smx_material_get_info(material.get(), &info));

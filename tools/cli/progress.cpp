@@ -45,6 +45,12 @@ void Progress::finish() {
     done_ += std::exchange(size_, 0.0);
 }
 
+void Progress::advance(std::string label, double size) {
+    label_ = std::move(label);
+    done_ += size;
+    show(0.0);
+}
+
 void Progress::attach(smx_render_options &options) {
     options.progress = on_progress;
     options.progress_user = this;

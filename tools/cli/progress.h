@@ -17,8 +17,9 @@ class Progress {
     Progress &operator=(const Progress &) = delete;
 
     void start(std::string label, double size);
-    void finish();      // the current job is done
-    void clear() const; // takes the bar away, so that other text can be printed
+    void finish();                                // the current job is done
+    void advance(std::string label, double size); // a job was done elsewhere; goes on after an interrupt
+    void clear() const;                           // takes the bar away, so that other text can be printed
 
     // Asks a rendering call to report its share of the current job here, and to stop on an interrupt.
     void attach(smx_render_options &options);
