@@ -370,6 +370,17 @@ SMX_API smx_status smx_material_get_fresnel(smx_material material, double *theta
 SMX_API smx_status smx_material_load(const char *path, smx_material *material);
 SMX_API smx_status smx_material_save(smx_material material, const char *path);
 
+/* A density and a material as tables: f in 1/sr, not displaced, at the nodes of a MERL table with 180 values of phi_d;
+ * in double on the host, with height-correlated masking; cells below the horizon are invalid. Tables like any other,
+ * with source "memory" and the name of what they are from: a reference of such a table, against the measured one's, has
+ * the error of the inversion or of the fit and none of the widening.
+ *   density   f = F(theta_d) D(wh) G2(wi, wo) / (4 cos_i cos_o), before any lobe is fitted: D on the inversion's nodes,
+ *             G2 from the projected area of that D, integrated numerically; F is 1 for a density without a BRDF
+ *   material  the formula of its model
+ * Statuses: INVALID_ARGUMENT, BAD_FORMAT (an f above 1e30, more than a table takes), OUT_OF_MEMORY. */
+SMX_API smx_status smx_density_tabulate(smx_density density, smx_brdf *brdf);
+SMX_API smx_status smx_material_tabulate(smx_material material, smx_brdf *brdf);
+
 /* ------------------------------------------------------------------------------------------- errors in BRDF space */
 
 /* How far a model f is from a table r: roots of weighted means of squares over the table's valid cells, both orders of

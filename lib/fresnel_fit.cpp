@@ -2,21 +2,9 @@
 
 #include <cmath>
 
-#include "projected_area.h"
-
 namespace smx {
 
 namespace {
-
-// The projected area of the distribution on the table's nodes.
-ProjectedArea projected_area(const std::vector<double> &ndf) {
-    std::vector<double> theta, weight;
-    for (std::size_t j = 0; j < ndf.size(); ++j) {
-        theta.push_back(Brdf::theta_h(j));
-        weight.push_back(ndf[j] * std::sin(theta[j]) * static_cast<double>(j));
-    }
-    return {theta, weight};
-}
 
 // Quotient of the two sums over the cells of one theta_d; negative where there is nothing to divide.
 Rgb energy_ratio(const Brdf &brdf, const std::vector<double> &ndf, const ProjectedArea &sigma, std::size_t d) {
@@ -40,6 +28,15 @@ Rgb energy_ratio(const Brdf &brdf, const std::vector<double> &ndf, const Project
 }
 
 } // namespace
+
+ProjectedArea projected_area(const std::vector<double> &ndf) {
+    std::vector<double> theta, weight;
+    for (std::size_t j = 0; j < ndf.size(); ++j) {
+        theta.push_back(Brdf::theta_h(j));
+        weight.push_back(ndf[j] * std::sin(theta[j]) * static_cast<double>(j));
+    }
+    return {theta, weight};
+}
 
 FresnelCurves fit_fresnel(const Brdf &brdf, const std::vector<double> &ndf) {
     const ProjectedArea sigma = projected_area(ndf);

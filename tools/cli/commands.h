@@ -13,6 +13,7 @@ void add_synth(CLI::App &app);
 void add_fit(CLI::App &app);
 void add_render(CLI::App &app);
 void add_sheet(CLI::App &app);
+void add_budget(CLI::App &app);
 void add_compare(CLI::App &app);
 
 } // namespace slopemix::cli

@@ -1,4 +1,4 @@
-// The flags that render and sheet share.
+// The flags that render, sheet and budget share.
 #include "flags.h"
 
 #include <cmath>
@@ -37,7 +37,7 @@ std::string options_text(const FitFlags &flags) {
            (flags.lobes == SMX_LOBES_AUTO ? "auto" : std::to_string(flags.lobes));
 }
 
-void add_render_flags(CLI::App &command, RenderFlags &flags) {
+void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
     add_parsed(command, "--res", flags.resolution, parse_resolution,
                "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
         ->type_name("W[xH]");
@@ -45,21 +45,29 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
         return static_cast<std::uint32_t>(parse_count(text, spp_range));
     };
     add_parsed(command, "--spp", flags.spp, parse_spp,
-               "Samples per pixel of the reference; a square for grid, even for mis (default 65536)")
+               "Samples per pixel of the reference; a square for grid, even for mis (default " +
+                   std::to_string(flags.spp) + ")")
         ->type_name("N");
-    add_choice(command, "--sampler", flags.sampler, samplers, "Sampler of the reference (default grid)");
+    add_choice(command, "--sampler", flags.sampler, samplers,
+               std::string("Sampler of the reference (default ") + word_for(flags.sampler, samplers) + ")");
     const auto parse_error = [](const std::string &text) { return parse_number(text, target_error_range); };
+    const std::string default_error = flags.target_error > 0.0 ? " (default " + general(flags.target_error) + ")" : "";
     add_parsed(
         command, "--target-error", flags.target_error, parse_error,
-        "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E")
+        "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E" +
+            default_error)
         ->type_name("E");
     const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
     add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
+    command.add_option("--device", flags.device, "OpenCL device: its number in `slopemix info`, or part of its name")
+        ->type_name("D");
+}
+
+void add_render_flags(CLI::App &command, RenderFlags &flags) {
+    add_sampling_flags(command, flags);
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
     add_choice(command, "--g", flags.masking, maskings,
                "Masking and shadowing, height-correlated or separable (default correlated)");
-    command.add_option("--device", flags.device, "OpenCL device: its number in `slopemix info`, or part of its name")
-        ->type_name("D");
 }
 
 std::string sampling_text(const RenderFlags &flags) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "parse.h"
 #include "slopemix.h"
@@ -12,6 +13,7 @@
 namespace slopemix::cli {
 
 inline constexpr NumberRange alpha_range = {0.0, 1e4};
+inline constexpr NumberRange light_range = {-1e6, 1e6}; // degrees
 inline constexpr CountRange lobes_range = {1, SMX_MAX_LOBES};
 
 inline constexpr Choice<smx_model> models[] = {{"shared", SMX_MODEL_SHARED}, {"per-lobe", SMX_MODEL_PER_LOBE}};
@@ -32,6 +34,21 @@ CLI::Option *add_parsed(CLI::App &command, const std::string &flag, Target &targ
         }
     };
     return command.add_option_function<std::string>(flag, store, help);
+}
+
+// The same for an option that may stand several times; what is given takes the place of the values that are there.
+template <class Value, class Parse>
+CLI::Option *add_repeated(CLI::App &command, const std::string &flag, std::vector<Value> &targets, Parse parse,
+                          const std::string &help) {
+    const auto store = [&targets, parse, flag](const std::vector<std::string> &texts) {
+        targets.clear();
+        try {
+            for (const std::string &text : texts) targets.push_back(parse(text));
+        } catch (const std::invalid_argument &error) {
+            throw CLI::ValidationError(flag, error.what());
+        }
+    };
+    return command.add_option_function<std::vector<std::string>>(flag, store, help)->allow_extra_args(false);
 }
 
 template <class Value, std::size_t count>
@@ -65,6 +82,10 @@ struct RenderFlags {
     std::string device; // empty: the library's choice
 };
 
+// Resolution, samples, seed and device; their help names the values in `flags` as the defaults.
+void add_sampling_flags(CLI::App &command, RenderFlags &flags);
+
+// These and the others.
 void add_render_flags(CLI::App &command, RenderFlags &flags);
 
 // How a reference is sampled: "4096 samples per pixel" or "standard error 0.01".

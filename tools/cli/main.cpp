@@ -40,6 +40,7 @@ int run(int argc, char **argv) {
     add_fit(app);
     add_render(app);
     add_sheet(app);
+    add_budget(app);
     add_compare(app);
 
     cancel_on_interrupt();

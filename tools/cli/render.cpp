@@ -18,7 +18,6 @@ namespace {
 
 constexpr NumberRange rho_range = {-1.0, 1.0}; // its ends are refused: a degenerate covariance
 constexpr NumberRange mean_slope_range = {-1e4, 1e4};
-constexpr NumberRange light_range = {-1e6, 1e6};
 
 double parse_rho(const std::string &text) {
     const double rho = parse_number(text, rho_range);
