@@ -202,7 +202,7 @@ TEST(FitStages, TheEnergyBoundHasItsGradient) {
     PerLobeProblem problem(data().base, fit, energy);
     std::vector<ceres::ResidualBlockId> blocks;
     problem.problem().GetResidualBlocks(&blocks);
-    int checked = 0;
+    int checked = 0, above = 0;
     for (const ceres::ResidualBlockId &block : blocks) {
         const ceres::CostFunction *function = problem.problem().GetCostFunctionForResidualBlock(block);
         if (function->num_residuals() != 1) continue; // the energy's
@@ -210,10 +210,19 @@ TEST(FitStages, TheEnergyBoundHasItsGradient) {
         problem.problem().GetParameterBlocksForResidualBlock(block, &parameters);
         ceres::GradientChecker checker(function, no_manifolds, difference_options());
         ceres::GradientChecker::ProbeResults results;
-        EXPECT_TRUE(checker.Probe(parameters.data(), gradient_tolerance, &results)) << results.error_log;
+        checker.Probe(parameters.data(), gradient_tolerance, &results);
+        double largest = 0.0, difference = 0.0; // some shares are 1e-9 of others, below the differences' roundings
+        for (std::size_t b = 0; b < parameters.size(); ++b) {
+            largest = std::max(largest, results.numeric_jacobians[b].cwiseAbs().maxCoeff());
+            difference =
+                std::max(difference, (results.jacobians[b] - results.numeric_jacobians[b]).cwiseAbs().maxCoeff());
+        }
+        EXPECT_LE(difference, gradient_tolerance * largest) << results.error_log;
+        above += largest > 0.0;
         ++checked;
     }
     EXPECT_EQ(checked, static_cast<int>(3 * DirectionalAlbedo::theta_o_degrees.size()));
+    EXPECT_GT(above, 0); // beyond their bound
 }
 
 TEST(FitStages, CompressedResidualsHaveTheSamplesSumOfSquares) {
