@@ -4,6 +4,7 @@
 #include <CL/cl.h>
 
 #include <cctype>
+#include <chrono>
 #include <cstring>
 #include <thread>
 
