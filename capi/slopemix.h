@@ -206,7 +206,10 @@ typedef struct smx_density_info {
 #define SMX_DENSITY_INFO_INIT \
     { sizeof(smx_density_info), 0, 0, 0, 0, 0.0, 0.0, "" }
 
-/* Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
+/* Cells whose sum of channels is more than 30 times the median of their row in phi_d, and of the rows beside it in
+ * theta_h, are taken for faults: the inversion, and fits to the density, see them filled like holes. References and
+ * errors are those of the table as it is.
+ * Statuses: INVALID_ARGUMENT, NO_SOLUTION (no retro-reflection at all), OUT_OF_MEMORY. */
 SMX_API smx_status smx_density_create(smx_brdf brdf, const smx_inversion_options *options, smx_density *density);
 
 /* What a sampled density is over. */
@@ -288,7 +291,7 @@ typedef struct smx_fit_report {
     double displaced_relrmse_shared; /* of the shared model with as many lobes. 0 for a density without a BRDF */
     char choice[512];                /* why this number of lobes or this start, where there was a choice */
     double seconds;                  /* of EM, the curves' start and the refinements */
-    double check_seconds;            /* of the estimates, the deviations, the albedo, and a fit that was not kept */
+    double check_seconds; /* of all else: the estimates, the deviations, the albedo, and fits that were not kept */
 } smx_fit_report;
 #define SMX_FIT_REPORT_INIT \
     { sizeof(smx_fit_report), 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, "", 0, 0.0, 0.0, 0.0, "", 0.0, 0.0, 0.0, "", 0.0, 0.0 }
@@ -311,8 +314,9 @@ typedef struct smx_material_info {
 
 /* Fits `lobes` lobes to a slope density: EM in log space from several starts, then Ceres; the shared model takes over
  * the density's Fresnel curves, the per-lobe model fits its own to the table and refines alphas and curves together,
- * also to the table as it looks on displaced surfaces, and reflects no more than max(1, the table) towards any
- * direction. Statuses: INVALID_ARGUMENT (also the per-lobe model, the default, for a density without a BRDF),
+ * also to the table as it looks on displaced surfaces; where refined it reflects no more than max(1, the table) at
+ * the angles of smx_material_get_albedo, to 0.2 %.
+ * Statuses: INVALID_ARGUMENT (also the per-lobe model, the default, for a density without a BRDF),
  * NO_SOLUTION, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_fit(smx_density density, const smx_fit_options *options, smx_material *material);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -95,7 +96,7 @@ BrdfErrors measure(const Candidate &candidate, const Brdf &reference) {
 
 // Fills a row from a formula, which is even in cos(phi_d) but for the order of the directions: a quarter of a turn is
 // enough.
-void fill_from(const NodeFormula &model, std::size_t h, std::size_t d, std::vector<Rgb> &row) {
+void fill_from(const TableFormula &model, std::size_t h, std::size_t d, std::vector<Rgb> &row) {
     for (std::size_t p = 0; p < row.size(); ++p) {
         const std::size_t mirrored = std::min(p % 180, 180 - p % 180);
         const Cosines at = Brdf::cosines(h, d, p);
@@ -108,7 +109,7 @@ void fill_from(const NodeFormula &model, std::size_t h, std::size_t d, std::vect
 
 } // namespace
 
-BrdfErrors brdf_errors(const NodeFormula &model, const Brdf &reference) {
+BrdfErrors brdf_errors(const TableFormula &model, const Brdf &reference) {
     const auto fill = [&](std::size_t h, std::size_t d, std::vector<Rgb> &row) { fill_from(model, h, d, row); };
     return measure({reference.phi_d_count(), fill, [](std::size_t, std::size_t, std::size_t) { return true; }},
                    reference);

@@ -1,10 +1,9 @@
 // Errors in BRDF space, in the field's own metrics (docs/metrics.md): how far a model's f is from a table's r.
 #pragma once
 
-#include <functional>
-
 #include "brdf.h"
 #include "material.h"
+#include "table_sampling.h"
 
 namespace smx {
 
@@ -21,13 +20,10 @@ struct BrdfErrors {
     MetricErrors within; // without those with theta_i or theta_o beyond 80 degrees
 };
 
-// f in 1/sr at nodes theta_h and theta_d, for the pair's cosines, both above 0.
-using NodeFormula = std::function<Rgb(std::size_t theta_h, std::size_t theta_d, const Cosines &)>;
-
 // At the reference's own valid cells, each weighted by the measure of the pairs (wi, wo) that it stands for,
 //   dwi dwo = 4 cos(theta_d) sin(theta_d) dtheta_d sin(theta_h) dtheta_h dphi_d dphi_h,
 // and counted with either direction as wi. Throws NoSolution for a reference with no valid cell within 80 degrees.
-BrdfErrors brdf_errors(const NodeFormula &model, const Brdf &reference);
+BrdfErrors brdf_errors(const TableFormula &model, const Brdf &reference);
 BrdfErrors brdf_errors(const Material &material, const Brdf &reference);
 
 // Between two tables, at the cells that are valid in both.

@@ -34,7 +34,6 @@ std::vector<double> curve_levels() {
         levels.push_back(knots[j] * degree);
         levels.push_back(std::floor((knots[j] + knots[j + 1]) / 2) * degree);
     }
-    levels.push_back(89 * degree); // the table's last row
     return levels;
 }
 

@@ -49,13 +49,17 @@ double seen(double theta_d) {
     return (0.25 + std::sin(2 * theta_d)) * cosine * cosine;
 }
 
-// Scales the samples' weights so that their values have this sum of squares.
-void normalise(DirectionLevel &level, double sum_of_squares) {
+double sum_of_squares(const DirectionLevel &level) {
     double sum = 0.0;
     for (const DirectionSample &s : level.samples)
         for (double f : s.f) sum += s.weight * s.weight * f * f;
-    if (sum <= 0.0) return;
-    level.norm = std::sqrt(sum_of_squares);
+    return sum;
+}
+
+// Scales the samples' weights so that their values have this sum of squares.
+void normalise(DirectionLevel &level, double wanted) {
+    const double sum = sum_of_squares(level);
+    level.norm = std::sqrt(wanted);
     for (DirectionSample &s : level.samples) s.weight *= level.norm / std::sqrt(sum);
 }
 
@@ -94,6 +98,7 @@ std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector
 }
 
 void weigh_levels(std::vector<DirectionLevel> &levels, double share) {
+    std::erase_if(levels, [](const DirectionLevel &level) { return sum_of_squares(level) <= 0.0; });
     // A level stands for the angles up to half-way to its neighbours.
     std::vector<double> parts;
     for (std::size_t l = 0; l < levels.size(); ++l) {

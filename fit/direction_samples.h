@@ -40,6 +40,7 @@ std::vector<DirectionLevel> direction_levels(const Brdf &brdf, const std::vector
 // relative error is the integral of (model - f)^2 ci^2 co over the solid angle of the normal about wh, over that of f^2
 // ci^2 co. So within a level peak and body count in the share in which they are seen, and each level is scaled to a sum
 // of squares of 1 and then to how much of it is seen under lights from everywhere. `share` is the sum over all levels.
+// Levels that reflect nothing have no relative error and are dropped.
 void weigh_levels(std::vector<DirectionLevel> &levels, double share);
 
 } // namespace smx

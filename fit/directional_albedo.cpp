@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lobe_value.h"
-#include "material_at.h"
+#include "material_value.h"
 
 namespace smx {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -61,12 +60,11 @@ std::vector<std::vector<Lobe>> starts(const SlopeDensity &density, unsigned lobe
     std::vector<std::vector<Lobe>> all = {quantile_start(density, lobes)};
     for (std::uint64_t seed : cluster_seeds) all.push_back(cluster_start(density, lobes, seed));
     std::erase_if(all, [](const std::vector<Lobe> &start) { return start.empty(); });
-    for (std::vector<Lobe> &start : all) canonicalise(start);
     return all;
 }
 
 // Steps until one gains less than the tolerance, or there were max_iterations in all.
-void climb(EmResult &run, const SlopeDensity &density, double tolerance, unsigned max_iterations) {
+void go_on(EmResult &run, const SlopeDensity &density, double tolerance, unsigned max_iterations) {
     double before = mean_log_likelihood(run.lobes, density);
     for (bool gains = true; gains && run.iterations < max_iterations; ++run.iterations) {
         em_step(run.lobes, density);
@@ -121,15 +119,22 @@ void merge_redundant(std::vector<Lobe> &lobes, const SlopeDensity &density) {
     }
 }
 
+EmResult climb(std::vector<Lobe> start, const SlopeDensity &density, double tolerance, unsigned max_iterations) {
+    EmResult run{std::move(start), 0, 0.0, 0.0};
+    canonicalise(run.lobes);
+    go_on(run, density, tolerance, max_iterations);
+    canonicalise(run.lobes);
+    return run;
+}
+
 EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, unsigned max_iterations) {
     EmResult best;
     for (std::vector<Lobe> &start : starts(density, lobes)) {
-        EmResult run{std::move(start), 0, -std::numeric_limits<double>::infinity(), 0.0};
-        climb(run, density, tolerance, std::min(screening_iterations, max_iterations));
+        EmResult run = climb(std::move(start), density, tolerance, std::min(screening_iterations, max_iterations));
         if (best.lobes.empty() || run.log_likelihood > best.log_likelihood) best = std::move(run);
     }
     if (best.lobes.empty()) fail(Fault::NoSolution, "the slope density has no mass");
-    climb(best, density, tolerance, max_iterations);
+    go_on(best, density, tolerance, max_iterations);
     canonicalise(best.lobes);
     return best;
 }

@@ -24,6 +24,9 @@ EmResult fit_em(const SlopeDensity &density, unsigned lobes, double tolerance, u
 // `lobes` are in canonical order.
 void merge_redundant(std::vector<Lobe> &lobes, const SlopeDensity &density);
 
+// The same from one start.
+EmResult climb(std::vector<Lobe> start, const SlopeDensity &density, double tolerance, unsigned max_iterations);
+
 // log sum exp(logs), without overflow.
 double log_sum_exp(const std::vector<double> &logs);
 

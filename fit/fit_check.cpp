@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "displaced_samples.h"
-#include "material_at.h"
+#include "material_value.h"
 
 namespace smx {
 

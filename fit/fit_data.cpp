@@ -33,9 +33,8 @@ std::vector<double> every_other(const std::vector<double> &angles) {
 double mean_value(const std::vector<DirectionLevel> &levels) {
     double sum = 0.0;
     for (const DirectionLevel &level : levels)
-        for (const DirectionSample &s : level.samples)
-            if (level.norm > 0.0) sum += s.weight * s.weight;
-    return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
+        for (const DirectionSample &s : level.samples) sum += s.weight * s.weight;
+    return 1.0 / std::sqrt(sum);
 }
 
 void divide_values(std::vector<DirectionLevel> &levels, double scale) {
@@ -53,9 +52,9 @@ FitData::FitData(const Brdf &brdf)
       displaced(on_displaced_surfaces(brdf, every_other(curve_levels()))),
       lit(direction_levels(brdf, light_angles())),
       albedo(brdf) {
-    if (base.empty()) fail(Fault::NoSolution, brdf.name(), ": the table has no measured cell above the horizon");
+    if (base.empty())
+        fail(Fault::NoSolution, brdf.name(), ": nothing is reflected in a measured cell above the horizon");
     scale = mean_value(base);
-    if (scale <= 0.0) fail(Fault::NoSolution, brdf.name(), ": the table reflects nothing");
     divide_values(base, scale);
     divide_values(displaced, scale);
 }

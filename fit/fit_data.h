@@ -9,7 +9,7 @@
 namespace smx {
 
 struct FitData {
-    // Throws NoSolution for a table with no measured cell above the horizon.
+    // Throws NoSolution for a table that reflects nothing in a measured cell above the horizon.
     explicit FitData(const Brdf &brdf);
 
     // A mean of the table's values. The fits' own samples have values over it, so that tolerances mean the same

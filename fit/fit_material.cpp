@@ -34,51 +34,61 @@ class Lap {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The per-lobe model from a shared one; in place.
-void make_per_lobe(const FitData &data, const std::vector<DirectionLevel> &check, const FitOptions &options,
-                   Material &m) {
-    Lap lap;
-    const Material shared = m;
-    std::vector<double> alphas;
-    for (const Lobe &lobe : shared.lobes) alphas.push_back(lobe.alpha);
-    PerLobeFit fit = fit_per_lobe(data, alphas, options.refine, m);
-    m.report.seconds += lap.read();
+// A fit and what its deviations are computed from.
+struct Candidate {
+    Material material;
+    FittedCurves curves; // of the per-lobe model
+    double seconds = 0.0;
+};
 
-    m.report.displaced_relrmse_shared = mean_relrmse(check, shared);
-    const double allowed = allowed_worse * m.report.displaced_relrmse_shared;
-    const double first = mean_relrmse(check, m);
-    if (options.refine && first > allowed) {
-        Material other = shared;
-        const PerLobeFit other_fit = fit_per_lobe(data, spread_alphas(shared.lobes), true, other);
-        const double second = mean_relrmse(check, other);
-        const bool better = second < first;
-        other.report.choice = text("from EM's alphas worse on displaced spheres than the shared model (", first,
-                                   " against ", m.report.displaced_relrmse_shared, "); from alphas spread evenly ",
-                                   second, ": ", better ? "kept" : "not kept");
-        if (better) {
-            other.report.seconds = m.report.seconds;
-            other.report.displaced_relrmse_shared = m.report.displaced_relrmse_shared;
-            m = other;
-            fit = other_fit;
-        } else {
-            m.report.choice = other.report.choice;
-        }
-    }
-    if (options.refine)
-        m.report.deviations = deviations(joined(data.base, data.displaced, m.report.displaced_share), fit, data.scale);
-    m.report.check_seconds += lap.read();
+Candidate per_lobe_candidate(const FitData &data, const FitOptions &options, const Material &shared,
+                             const std::vector<double> &alphas) {
+    Lap lap;
+    Candidate candidate{shared, {}, 0.0};
+    candidate.curves = fit_per_lobe(data, alphas, options.refine, candidate.material);
+    candidate.seconds = lap.read();
+    return candidate;
 }
 
+// The per-lobe model from a shared one, which it must not be worse than.
+Candidate make_per_lobe(const FitData &data, const std::vector<DirectionLevel> &check, const FitOptions &options,
+                        const Material &shared) {
+    std::vector<double> alphas;
+    for (const Lobe &lobe : shared.lobes) alphas.push_back(lobe.alpha);
+    Candidate first = per_lobe_candidate(data, options, shared, alphas);
+    const double limit = mean_relrmse(check, shared), error = mean_relrmse(check, first.material);
+    Candidate *chosen = &first;
+    Candidate second;
+    std::string choice;
+    if (options.refine && error > allowed_worse * limit) {
+        second = per_lobe_candidate(data, options, shared, spread_alphas(shared.lobes));
+        const double other = mean_relrmse(check, second.material);
+        if (other < error) chosen = &second;
+        choice = text("from EM's alphas worse on displaced spheres than the shared model (", error, " against ", limit,
+                      "); from alphas spread evenly ", other, ": ", other < error ? "kept" : "not kept");
+    }
+    FitReport &report = chosen->material.report;
+    report.displaced_relrmse_shared = limit;
+    report.choice = choice;
+    report.seconds += chosen->seconds;
+    return std::move(*chosen);
+}
+
+// Figures about a material that are not needed to find it.
 void judge(const FitData &data, const std::vector<DirectionLevel> &check, Material &m) {
-    Lap lap;
     m.report.base_relrmse = mean_relrmse(data.lit, m);
     m.report.displaced_relrmse = mean_relrmse(check, m);
     if (m.model == Model::Shared) m.report.displaced_relrmse_shared = m.report.displaced_relrmse;
+}
+
+void describe(const FitData &data, const FitOptions &options, Candidate &candidate) {
+    FitReport &report = candidate.material.report;
+    if (options.refine && options.model == Model::PerLobe)
+        report.deviations = deviations(candidate.curves.levels, candidate.curves.fit, data.scale);
     for (double degrees : DirectionalAlbedo::theta_o_degrees)
-        m.report.albedo.theta_o.push_back(degrees * std::numbers::pi / 180);
-    m.report.albedo.table = data.albedo.of_table();
-    m.report.albedo.fit = data.albedo.of(m);
-    m.report.check_seconds += lap.read();
+        report.albedo.theta_o.push_back(degrees * std::numbers::pi / 180);
+    report.albedo.table = data.albedo.of_table();
+    report.albedo.fit = data.albedo.of(candidate.material);
 }
 
 // A table as its fits need it.
@@ -88,38 +98,43 @@ struct Table {
 };
 
 // With a number of lobes; `table` null: a density without one.
-Material fit_with(const Table *table, const SlopeDensity &density, unsigned lobes, const FitOptions &options) {
+Candidate fit_with(const Table *table, const SlopeDensity &density, unsigned lobes, const FitOptions &options) {
     Lap lap;
-    Material m = fit_mixture(density, lobes, options);
-    m.report.seconds = lap.read();
-    if (!table) return m;
-    if (options.model == Model::PerLobe) make_per_lobe(table->data, table->check, options, m);
-    judge(table->data, table->check, m);
-    return m;
+    Candidate candidate{fit_mixture(density, lobes, options), {}, 0.0};
+    candidate.material.report.seconds = lap.read();
+    if (!table) return candidate;
+    if (options.model == Model::PerLobe)
+        candidate = make_per_lobe(table->data, table->check, options, candidate.material);
+    judge(table->data, table->check, candidate.material);
+    return candidate;
 }
 
-Material fit_automatically(const Table *table, const SlopeDensity &density, const FitOptions &options) {
-    Material m = fit_with(table, density, 1, options);
+Candidate fit_automatically(const Table *table, const SlopeDensity &density, const FitOptions &options) {
+    Candidate chosen = fit_with(table, density, 1, options);
     for (unsigned lobes = 1; lobes < max_lobes; ++lobes) {
-        const Material next = fit_with(table, density, lobes + 1, options);
-        const double likelihood = next.report.log_likelihood - m.report.log_likelihood;
-        const double relrmse = m.report.displaced_relrmse - next.report.displaced_relrmse;
+        Candidate next = fit_with(table, density, lobes + 1, options);
+        FitReport &report = chosen.material.report;
+        const double likelihood = next.material.report.log_likelihood - report.log_likelihood;
+        const double relrmse = report.displaced_relrmse - next.material.report.displaced_relrmse;
         if (likelihood < auto_likelihood_gain && relrmse < auto_relrmse_gain) {
-            m.report.choice = text(lobes, " lobes: one more lowers the divergence by ", likelihood, " nat",
-                                   table ? text(" and the relRMSE on displaced spheres by ", relrmse) : "",
-                                   m.report.choice.empty() ? "" : "; ", m.report.choice);
-            return m;
+            report.choice = text(lobes, " lobes: one more lowers the divergence by ", likelihood, " nat",
+                                 table ? text(" and the relRMSE on displaced spheres by ", relrmse) : "",
+                                 report.choice.empty() ? "" : "; ", report.choice);
+            break;
         }
-        m = next;
+        chosen = std::move(next);
     }
-    return m;
+    return chosen;
 }
 
 Material fit_any(const Table *table, const SlopeDensity &density, const FitOptions &options) {
-    Material m = options.lobes == auto_lobes ? fit_automatically(table, density, options)
-                                             : fit_with(table, density, options.lobes, options);
-    validate(m);
-    return m;
+    Lap lap;
+    Candidate fitted = options.lobes == auto_lobes ? fit_automatically(table, density, options)
+                                                   : fit_with(table, density, options.lobes, options);
+    if (table) describe(table->data, options, fitted);
+    fitted.material.report.check_seconds = lap.read() - fitted.material.report.seconds;
+    validate(fitted.material);
+    return std::move(fitted.material);
 }
 
 } // namespace

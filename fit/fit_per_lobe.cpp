@@ -55,10 +55,10 @@ double base_relrmse(const FitData &data, const PerLobeFit &fit) {
     return mean_relrmse(data.lit, material);
 }
 
-// Refines with the first share, then with larger ones while the base allows it.
-PerLobeRefinement refine(const FitData &data, const PerLobeFit &start, double &share) {
+// Refines with the first share, then with larger ones while the base allows it. `base` loses the weight of its faults.
+PerLobeRefinement refine(const FitData &data, const PerLobeFit &start, std::vector<DirectionLevel> &base,
+                         double &share) {
     share = first_share;
-    std::vector<DirectionLevel> base = data.base;
     PerLobeRefinement best{start, 0, {}};
     refine_per_lobe(joined(base, data.displaced, share), first_iterations, best);
     if (reweigh(base, best.fit)) refine_per_lobe(joined(base, data.displaced, share), continued_iterations, best);
@@ -78,12 +78,13 @@ PerLobeRefinement refine(const FitData &data, const PerLobeFit &start, double &s
 
 } // namespace
 
-PerLobeFit fit_per_lobe(const FitData &data, const std::vector<double> &alphas, bool refine_too, Material &material) {
+FittedCurves fit_per_lobe(const FitData &data, const std::vector<double> &alphas, bool refine_too, Material &material) {
     PerLobeFit fit{alphas, fit_curves(joined(data.base, data.displaced, first_share), alphas)};
     FitReport &report = material.report;
     report.brdf_residual_start = brdf_residual(data.base, fit);
+    std::vector<DirectionLevel> base = data.base;
     if (refine_too) {
-        const PerLobeRefinement refined = refine(data, fit, report.displaced_share);
+        const PerLobeRefinement refined = refine(data, fit, base, report.displaced_share);
         report.curve_iterations = refined.iterations;
         report.curve_message = refined.message;
         fit = refined.fit;
@@ -91,7 +92,7 @@ PerLobeFit fit_per_lobe(const FitData &data, const std::vector<double> &alphas, 
     report.brdf_residual = brdf_residual(data.base, fit);
     fit = in_order_of_alpha(fit);
     store(fit, data.scale, material);
-    return fit;
+    return {fit, joined(base, data.displaced, report.displaced_share)};
 }
 
 std::vector<double> spread_alphas(const std::vector<Lobe> &mixture) {

@@ -9,13 +9,19 @@
 
 namespace smx {
 
-// A per-lobe material from these alphas; fills the curves' part of the report. Returns the fit, lobes in the material's
-// order, its values over data.scale.
+// A fit, its lobes in the material's order and its values over data.scale, and the samples that it is the least-squares
+// solution of, with the weights that it ended with.
+struct FittedCurves {
+    PerLobeFit fit;
+    std::vector<DirectionLevel> levels;
+};
+
+// A per-lobe material from these alphas; fills the curves' part of the report.
 //
 // Residuals are the base's and, with a share, those of displaced surfaces under the closed form, which the fit can
 // partly make up for. That share is raised in steps for as long as the base pays little for it: a twentieth of its own
 // relRMSE, or, up to 0.045, 0.006.
-PerLobeFit fit_per_lobe(const FitData &data, const std::vector<double> &alphas, bool refine, Material &material);
+FittedCurves fit_per_lobe(const FitData &data, const std::vector<double> &alphas, bool refine, Material &material);
 
 // Alphas spread evenly in the logarithm between the mixture's ends: another start.
 std::vector<double> spread_alphas(const std::vector<Lobe> &mixture);

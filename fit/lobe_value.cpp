@@ -50,9 +50,9 @@ struct Sigma {
 };
 
 Sigma sigma(double cosine, double s) {
-    if (cosine >= AreaTable::end * s) return {cosine, 0.0};
+    const double v = cosine / s; // infinite at s = 0
+    if (v >= AreaTable::end) return {cosine, 0.0};
     static const AreaTable table;
-    const double v = cosine / s;
     const auto [g, slope] = table(v);
     return {s * g, g - v * slope};
 }

@@ -11,9 +11,11 @@
 #include "em.h"
 #include "em_starts.h"
 #include "fit_data.h"
+#include "fit_per_lobe.h"
 #include "lobe_curves.h"
 #include "lobe_value.h"
 #include "per_lobe_problem.h"
+#include "refine_per_lobe.h"
 
 namespace {
 
@@ -147,8 +149,14 @@ TEST(FitStages, TheBestStartIsNoWorseThanEach) {
     const SlopeDensity density = heavy_tail();
     for (const unsigned lobes : {2u, 4u, 8u}) {
         const double best = fit_em(density, lobes, 1e-9, 50).log_likelihood;
-        for (const std::vector<Lobe> &start : {quantile_start(density, lobes), cluster_start(density, lobes, 1)})
-            EXPECT_GE(best, mean_log_likelihood(start, density)) << lobes;
+        double lowest = best;
+        for (const std::vector<Lobe> &start :
+             {quantile_start(density, lobes), cluster_start(density, lobes, 1), cluster_start(density, lobes, 2)}) {
+            const double climbed = climb(start, density, 1e-9, 50).log_likelihood;
+            EXPECT_GE(best, climbed - allowed_fall) << lobes;
+            lowest = std::min(lowest, climbed);
+        }
+        EXPECT_LT(lowest, best) << lobes; // it makes a difference
     }
 }
 
@@ -223,6 +231,41 @@ TEST(FitStages, TheEnergyBoundHasItsGradient) {
     }
     EXPECT_EQ(checked, static_cast<int>(3 * DirectionalAlbedo::theta_o_degrees.size()));
     EXPECT_GT(above, 0); // beyond their bound
+}
+
+TEST(FitStages, EnergyIsBroughtWithinItsBound) {
+    PerLobeRefinement result{start(), 0, {}};
+    const std::vector<Rgb> bound = data().albedo_bound();
+    const auto excess = [&] {
+        double most = -HUGE_VAL;
+        const auto shares = data().albedo.shares(result.fit.alphas);
+        for (std::size_t t = 0; t < shares.size(); ++t)
+            for (std::size_t c = 0; c < 3; ++c) {
+                double albedo = 0.0;
+                for (Eigen::Index k = 0; k < shares[t].cols(); ++k)
+                    for (Eigen::Index j = 0; j < shares[t].rows(); ++j)
+                        albedo += shares[t](j, k) *
+                                  result.fit.curves[static_cast<std::size_t>(k)][c][static_cast<std::size_t>(j)];
+                most = std::max(most, albedo / bound[t][c] - 1.0);
+            }
+        return most;
+    };
+    for (CurveCoefficients &curves : result.fit.curves)
+        for (std::vector<double> &channel : curves)
+            for (double &value : channel) value *= 2.0;
+    EXPECT_GT(excess(), 0.1);
+    bound_energy(data().base, data().albedo, bound, 6, result);
+    EXPECT_LE(excess(), 1e-12);
+    EXPECT_GT(excess(), -0.5); // it did not go black
+}
+
+TEST(FitStages, SpreadAlphasLieBetweenTheMixturesEnds) {
+    const std::vector<double> alphas = spread_alphas({{0.5, 0.01}, {0.3, 0.02}, {0.2, 1.0}});
+    ASSERT_EQ(alphas.size(), 3u);
+    EXPECT_GT(alphas[0], 0.01);
+    EXPECT_LT(alphas[2], 1.0);
+    EXPECT_NEAR(alphas[1] / alphas[0], alphas[2] / alphas[1], 1e-12);
+    EXPECT_NEAR(alphas[1], 0.1, 1e-12);
 }
 
 TEST(FitStages, CompressedResidualsHaveTheSamplesSumOfSquares) {

@@ -63,6 +63,11 @@ class FitRun {
 
     void print() const { print_fits(job_, outcomes_); }
 
+    // Something was finished without all that was asked for.
+    bool cancelled() const {
+        return std::any_of(outcomes_.begin(), outcomes_.end(), [](const FitOutcome &o) { return o.cancelled; });
+    }
+
     std::size_t report_failures() const {
         std::size_t failures = 0;
         for (const FitOutcome &outcome : outcomes_) {
@@ -105,6 +110,7 @@ void run(const FitJob &job) {
     } catch (const Cancelled &) {
         cancelled = true;
     }
+    cancelled = cancelled || fits.cancelled();
     fits.print();
     const std::size_t failures = fits.report_failures();
     if (cancelled) throw CommandError("cancelled; the same command goes on from here");

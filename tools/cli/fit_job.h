@@ -46,7 +46,8 @@ struct Fitted {
 struct FitOutcome {
     std::size_t index; // of the input
     std::optional<Fitted> fitted;
-    std::string error; // empty: none
+    std::string error;      // empty: none
+    bool cancelled = false; // before all was done that was asked for
 };
 
 } // namespace slopemix::cli

@@ -28,12 +28,6 @@ smx_brdf_errors errors_of(smx_baseline kind, const Brdf &brdf) {
     return report.errors;
 }
 
-Material fit_of(smx_model model, FitSource &source) {
-    FitFlags flags = source.flags();
-    flags.model = model;
-    return fit(source.density(), flags);
-}
-
 // Calls visit(column, figure) for each figure of the metrics.
 void for_each_figure(auto &metrics, auto visit) {
     for (std::size_t k = 0; k < measured_models.size(); ++k)
@@ -49,7 +43,7 @@ void for_each_figure(auto &metrics, auto visit) {
 FitMetrics measure_fit(FitSource &source, const Material &material) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_shared = info_of(material).model == SMX_MODEL_SHARED;
-    const Material other = fit_of(is_shared ? SMX_MODEL_PER_LOBE : SMX_MODEL_SHARED, source);
+    const Material &other = source.other_model();
     FitMetrics metrics = {
         {errors_of(is_shared ? material : other, source.brdf()), errors_of(is_shared ? other : material, source.brdf()),
          errors_of(SMX_BASELINE_BECKMANN, source.brdf()), errors_of(SMX_BASELINE_GGX, source.brdf()),

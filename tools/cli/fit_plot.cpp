@@ -44,8 +44,7 @@ Curves curves_of(const Material &material) {
 // The share of each lobe in the density that retro-reflection sees: its weight, or, per lobe, its curves at normal
 // incidence.
 std::vector<smx_lobe> lobes_of(const Material &material, const Curves &curves) {
-    std::vector<smx_lobe> lobes(info_of(material).lobes);
-    check(smx_material_get_lobes(material.get(), lobes.data(), lobes.size()));
+    std::vector<smx_lobe> lobes = lobes_of(material);
     if (curves.sets == 1 && info_of(material).model == SMX_MODEL_SHARED) return lobes;
     double sum = 0.0;
     for (std::size_t k = 0; k < lobes.size(); ++k)
@@ -183,21 +182,19 @@ std::string slice_charts(const std::vector<std::vector<double>> &rows) {
 
 } // namespace
 
-std::string plot_fit(const Context &context, const Brdf &brdf, const Density &density, const Material &material,
-                     const FitFlags &flags) {
+std::string plot_fit(const Context &context, FitSource &source, const Material &material) {
     const bool is_shared = info_of(material).model == SMX_MODEL_SHARED;
-    FitFlags other_flags = flags;
-    other_flags.model = is_shared ? SMX_MODEL_PER_LOBE : SMX_MODEL_SHARED;
-    const Material other = fit(density, other_flags);
+    const Material &other = source.other_model();
     const Material &shared = is_shared ? material : other, &per_lobe = is_shared ? other : material;
 
     const Curves curves = curves_of(material);
     const std::vector<smx_lobe> lobes = lobes_of(material, curves);
     const std::vector<std::string> shades = chart_shades(lobes.size());
     return run_gnuplot(chart_head(width, height) + "set multiplot\n" + heading(material, 0.965) +
-                       density_chart(density, lobes, shades, 0.705, 0.915) + "unset label 1\n" +
+                       density_chart(source.density(), lobes, shades, 0.705, 0.915) + "unset label 1\n" +
                        fresnel_charts(curves, curves.sets == 1 ? chart_shades(1) : shades) +
-                       slice_charts(slice_at_45_degrees(context, brdf, {&shared, &per_lobe})) + "unset multiplot\n");
+                       slice_charts(slice_at_45_degrees(context, source.brdf(), {&shared, &per_lobe})) +
+                       "unset multiplot\n");
 }
 
 std::string plot_density(const Density &density, const Material &material) {

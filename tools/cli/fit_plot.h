@@ -3,16 +3,14 @@
 
 #include <string>
 
-#include "flags.h"
-#include "handles.h"
+#include "fit_source.h"
 
 namespace slopemix::cli {
 
 // An SVG of three parts: the table's slope density with the material's lobes and their sum; the Fresnel curves of each
 // channel; f in the plane of incidence at theta_i = 45 degrees, of the table and of a shared and a per-lobe fit, one of
-// which is the material and the other is fitted here with the same `flags`.
-std::string plot_fit(const Context &context, const Brdf &brdf, const Density &density, const Material &material,
-                     const FitFlags &flags);
+// which is the material and the other the source's other model.
+std::string plot_fit(const Context &context, FitSource &source, const Material &material);
 
 // The first of the parts alone, for a density that is from no BRDF.
 std::string plot_density(const Density &density, const Material &material);

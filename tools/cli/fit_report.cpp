@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "brdf_metrics.h"
+#include "fit_row.h"
 #include "text.h"
 
 namespace slopemix::cli {
@@ -21,9 +22,6 @@ Json metrics_json(const std::optional<FitMetrics> &metrics) {
     put_metrics(figures, metrics);
     return figures;
 }
-
-// A density has no table to be judged by.
-Json of_table(const Fitted &fitted, double figure) { return is_density(fitted.input) ? Json() : Json(figure); }
 
 Json to_json(const Fitted &fitted) {
     const smx_fit_report &report = fitted.report;

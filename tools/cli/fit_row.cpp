@@ -27,9 +27,6 @@ Json only_for(smx_model model, const Fitted &fitted, const Json &value) {
     return fitted.model == model ? value : Json();
 }
 
-// A density has no table to be judged by.
-Json of_table(const Fitted &fitted, double figure) { return is_density(fitted.input) ? Json() : number(figure); }
-
 struct Column {
     const char *name;
     Json (*value)(const Fitted &);
@@ -119,6 +116,14 @@ bool is_row_of(const Json &row, const std::string &sha256, const std::string &op
     const auto has = [&](const char *key, const std::string &value) { return row.contains(key) && row[key] == value; };
     return has("sha256", sha256) && has("options", options) && has("version", smx_version());
 }
+
+bool is_row_of_lobes(const Json &row, const std::vector<smx_lobe> &lobes) {
+    Json alphas = Json::array();
+    for (const smx_lobe &lobe : lobes) alphas.push_back(number(lobe.alpha));
+    return row.contains("alpha") && row["alpha"] == alphas;
+}
+
+Json of_table(const Fitted &fitted, double figure) { return is_density(fitted.input) ? Json() : number(figure); }
 
 std::string csv_heading() {
     std::string line;

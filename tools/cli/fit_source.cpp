@@ -17,4 +17,11 @@ const Density &FitSource::density() {
     return density_;
 }
 
+const Material &FitSource::other_model() {
+    FitFlags flags = flags_;
+    flags.model = flags.model == SMX_MODEL_SHARED ? SMX_MODEL_PER_LOBE : SMX_MODEL_SHARED;
+    if (!other_model_) other_model_ = fit(density(), flags);
+    return other_model_;
+}
+
 } // namespace slopemix::cli

@@ -18,14 +18,16 @@ class FitSource {
     std::string sha256() const;
     const Brdf &brdf() const { return brdf_; } // null: there is none
 
-    // A table's inversion, made when it is first asked for.
+    // Made when they are first asked for: a table's inversion, and the fit of the model that flags() does not name.
     const Density &density();
+    const Material &other_model();
 
   private:
     std::string input_;
     FitFlags flags_;
     Brdf brdf_;
     Density density_;
+    Material other_model_;
 };
 
 } // namespace slopemix::cli

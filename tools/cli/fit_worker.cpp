@@ -11,12 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<smx_lobe> lobes_of(const Material &material) {
-    std::vector<smx_lobe> lobes(info_of(material).lobes);
-    check(smx_material_get_lobes(material.get(), lobes.data(), lobes.size()));
-    return lobes;
-}
-
 std::array<double, 3> f0_of(const Material &material) {
     const smx_material_info info = info_of(material);
     std::vector<double> curves(std::size_t{3} * info.fresnel_sets * info.fresnel_knots);
@@ -48,7 +42,9 @@ Material FitWorker::load_if_up_to_date(const FitSource &source) const {
     if (smx_material_load(job_.file_for(source.input()).c_str(), &material) != SMX_OK) return nullptr;
     Material loaded(material);
     const smx_material_info info = info_of(loaded);
-    return info.sha256 == sha256 && info.model == source.flags().model ? std::move(loaded) : nullptr;
+    if (info.sha256 != sha256 || info.model != source.flags().model) return nullptr;
+    // A run that was killed between the file and its row leaves a file of other options.
+    return is_row_of_lobes(*row, lobes_of(loaded)) ? std::move(loaded) : nullptr;
 }
 
 Fitted FitWorker::describe(const FitSource &source, const Material &material, bool up_to_date) const {
@@ -67,9 +63,8 @@ Fitted FitWorker::describe(const FitSource &source, const Material &material, bo
 }
 
 void FitWorker::draw(FitSource &source, const Material &material) const {
-    const std::string svg = source.brdf()
-                                ? plot_fit(context_, source.brdf(), source.density(), material, source.flags())
-                                : plot_density(source.density(), material);
+    const std::string svg =
+        source.brdf() ? plot_fit(context_, source, material) : plot_density(source.density(), material);
     StagedFiles files;
     files.write(job_.plot_for(source.input()), [&](const fs::path &temporary) { write_text(temporary, svg); });
     files.commit();
@@ -91,11 +86,12 @@ void FitWorker::fit_input(const std::string &input, FitOutcome &outcome) const {
 }
 
 FitOutcome FitWorker::process(std::size_t index) const {
-    FitOutcome outcome{index, {}, {}};
+    FitOutcome outcome{index, {}, {}, false};
     try {
         fit_input(job_.inputs[index], outcome);
     } catch (const Cancelled &) {
         if (!outcome.fitted) throw;
+        outcome.cancelled = true;
     } catch (const CommandError &error) {
         outcome.error = error.what();
     }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "slopemix.h"
 
@@ -68,6 +69,12 @@ inline smx_material_info info_of(const Material &material) {
     smx_material_info info = SMX_MATERIAL_INFO_INIT;
     check(smx_material_get_info(material.get(), &info));
     return info;
+}
+
+inline std::vector<smx_lobe> lobes_of(const Material &material) {
+    std::vector<smx_lobe> lobes(info_of(material).lobes);
+    check(smx_material_get_lobes(material.get(), lobes.data(), lobes.size()));
+    return lobes;
 }
 
 inline smx_fit_report report_of(const Material &material) {
