@@ -16,16 +16,13 @@ namespace {
 constexpr NumberRange alpha_range = {1e-3, 10.0}, exponent_range = {0.0, 1e6}, share_range = {0.0, 1.0};
 
 Rgb with_fresnel(const Rgb &f0, const Cosines &at, double lobe) {
-    const double rise = schlick_rise(at.d);
-    return {(f0[0] + (1.0 - f0[0]) * rise) * lobe, (f0[1] + (1.0 - f0[1]) * rise) * lobe,
-            (f0[2] + (1.0 - f0[2]) * rise) * lobe};
+    return {schlick(at.d, f0[0]) * lobe, schlick(at.d, f0[1]) * lobe, schlick(at.d, f0[2]) * lobe};
 }
 
 BrdfFormula beckmann(const Parameters &p) {
     p.expect({"alpha", "f0"});
     return [alpha = p.number("alpha", alpha_range), f0 = p.colour("f0", share_range)](const Cosines &at) {
-        const double ndf = beckmann_ndf(at.h, alpha);
-        return with_fresnel(f0, at, smith_lobe(at, ndf, beckmann_sigma(at.i, alpha), beckmann_sigma(at.o, alpha)));
+        return with_fresnel(f0, at, beckmann_lobe(at, alpha));
     };
 }
 

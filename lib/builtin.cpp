@@ -9,19 +9,13 @@ namespace smx {
 
 namespace {
 
-double lobe(const Cosines &c, double alpha) {
-    return smith_lobe(c, beckmann_ndf(c.h, alpha), beckmann_sigma(c.i, alpha), beckmann_sigma(c.o, alpha));
-}
-
-double fresnel(double cos_d, double f0) { return f0 + (1.0 - f0) * schlick_rise(cos_d); }
-
 Rgb two_layer(const Cosines &at) {
     constexpr double gloss_alpha = 0.06, gloss_f0 = 0.04, body_alpha = 0.6;
     constexpr Rgb body = {0.55, 0.10, 0.04};
-    const double gloss = fresnel(at.d, gloss_f0);
+    const double gloss = schlick(at.d, gloss_f0);
     Rgb f{};
     for (std::size_t c = 0; c < 3; ++c)
-        f[c] = gloss * lobe(at, gloss_alpha) + (1.0 - gloss) * body[c] * lobe(at, body_alpha);
+        f[c] = gloss * beckmann_lobe(at, gloss_alpha) + (1.0 - gloss) * body[c] * beckmann_lobe(at, body_alpha);
     return f;
 }
 
@@ -29,7 +23,7 @@ Rgb conductor(const Cosines &at) {
     constexpr double alpha = 0.2;
     constexpr Rgb f0 = {0.95, 0.64, 0.54}; // copper's colour
     Rgb f{};
-    for (std::size_t c = 0; c < 3; ++c) f[c] = fresnel(at.d, f0[c]) * lobe(at, alpha);
+    for (std::size_t c = 0; c < 3; ++c) f[c] = schlick(at.d, f0[c]) * beckmann_lobe(at, alpha);
     return f;
 }
 

@@ -55,7 +55,14 @@ T smith_lobe(const Cosines &c, const T &ndf, const T &sigma_i, const T &sigma_o)
     return ndf / (4.0 * (sigma_i * c.o + sigma_o * c.i - c.i * c.o));
 }
 
+// The same of one Beckmann lobe.
+template <typename T>
+T beckmann_lobe(const Cosines &c, const T &alpha) {
+    return smith_lobe<T>(c, beckmann_ndf(c.h, alpha), beckmann_sigma(c.i, alpha), beckmann_sigma(c.o, alpha));
+}
+
 // The share of Schlick's Fresnel curve that does not depend on F0: F = F0 + (1 - F0) schlick_rise (Schlick 1994).
 inline double schlick_rise(double cos_d) { return std::pow(1.0 - cos_d, 5); }
+inline double schlick(double cos_d, double f0) { return f0 + (1.0 - f0) * schlick_rise(cos_d); }
 
 } // namespace smx

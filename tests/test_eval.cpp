@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "close.h"
+#include "directions.h"
 #include "random.h"
 #include "support.h"
 
 using oracle::Lobe;
 using oracle::Mixture;
 using oracle::Vec;
+using test::Directions;
 
 namespace {
 
@@ -75,19 +77,6 @@ test::Material material_of(const Case &c, smx_model model) {
     for (std::size_t k = 0; k < c.lobes.size(); ++k) colours.push_back(colour_of_lobe(k));
     return test::make_per_lobe_material(c.lobes, colours);
 }
-
-struct Directions {
-    std::vector<float> wi, wo;
-
-    void add(const Vec &i, const Vec &o) {
-        for (const double v : {i.x, i.y, i.z}) wi.push_back(static_cast<float>(v));
-        for (const double v : {o.x, o.y, o.z}) wo.push_back(static_cast<float>(v));
-    }
-    std::size_t count() const { return wi.size() / 3; }
-    static Vec at(const std::vector<float> &list, std::size_t k) {
-        return {list[3 * k], list[3 * k + 1], list[3 * k + 2]};
-    }
-};
 
 Directions random_directions() {
     test::Random random(7);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "close.h"
+#include "directions.h"
 #include "random.h"
 #include "support.h"
 
@@ -10,6 +11,7 @@ using oracle::Lookup;
 using oracle::Rgb;
 using oracle::Table;
 using oracle::Vec;
+using test::Directions;
 
 namespace {
 
@@ -19,19 +21,6 @@ constexpr double table_tolerance = 2e-5;
 constexpr double random_table_tolerance = 1e-4;
 // Directions of a node, rounded to float32, lie 1e-7 / cos(theta_d) from it; in cells of phi_d, that over theta_h.
 constexpr double node_tolerance = 1e-3;
-
-struct Directions {
-    std::vector<float> wi, wo;
-
-    void add(const Vec &i, const Vec &o) {
-        for (const double v : {i.x, i.y, i.z}) wi.push_back(static_cast<float>(v));
-        for (const double v : {o.x, o.y, o.z}) wo.push_back(static_cast<float>(v));
-    }
-    std::size_t count() const { return wi.size() / 3; }
-    static Vec at(const std::vector<float> &list, std::size_t k) {
-        return {list[3 * k], list[3 * k + 1], list[3 * k + 2]};
-    }
-};
 
 // Values without any pattern, so that every wrong node shows.
 Table random_table(int phi_d) {
