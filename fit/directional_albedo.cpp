@@ -69,7 +69,7 @@ std::vector<Rgb> DirectionalAlbedo::of(const Material &material) const {
     for (const std::vector<Node> &nodes : nodes_) {
         albedo.push_back({});
         for (const Node &node : nodes) {
-            const Rgb f = material_at(material, node.theta_d, node.sample);
+            const Rgb f = MaterialAtLevel(material, node.theta_d, 0.0)(node.sample);
             for (std::size_t c = 0; c < 3; ++c) albedo.back()[c] += node.sample.weight * f[c];
         }
     }

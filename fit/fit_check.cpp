@@ -25,9 +25,11 @@ std::vector<DirectionLevel> displaced_check(const Brdf &brdf) {
 double mean_relrmse(const std::vector<DirectionLevel> &levels, const Material &material) {
     double sum = 0.0;
     for (const DirectionLevel &level : levels) {
+        if (level.samples.empty()) continue;
+        const MaterialAtLevel value(material, level.theta_d, level.samples.front().displacement2);
         double error2 = 0.0, value2 = 0.0;
         for (const DirectionSample &s : level.samples) {
-            const Rgb model = material_at(material, level.theta_d, s);
+            const Rgb model = value(s);
             for (std::size_t c = 0; c < 3; ++c) {
                 error2 += std::pow(s.weight * (model[c] - s.f[c]), 2);
                 value2 += std::pow(s.weight * s.f[c], 2);

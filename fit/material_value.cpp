@@ -60,16 +60,18 @@ Rgb MaterialValue::operator()(std::size_t h, std::size_t d, const Cosines &at) c
     return value(model_, lobes_, ndf_[h], fresnel_[d], at);
 }
 
-Rgb material_at(const Material &m, double theta_d, const DirectionSample &s) {
-    std::vector<Lobe> widened = m.lobes;
+MaterialAtLevel::MaterialAtLevel(const Material &m, double theta_d, double displacement2)
+    : model_(m.model), cos_d_(std::cos(theta_d)), widened_(m.lobes), fresnel_(fresnel_sets(m, theta_d)) {
+    for (Lobe &lobe : widened_) lobe.alpha = std::sqrt(lobe.alpha * lobe.alpha + displacement2);
+}
+
+Rgb MaterialAtLevel::operator()(const DirectionSample &s) const {
     std::vector<double> ndf;
-    for (Lobe &lobe : widened) {
-        const double alpha2 = lobe.alpha * lobe.alpha + s.displacement2;
-        lobe.alpha = std::sqrt(alpha2);
+    for (const Lobe &lobe : widened_) {
+        const double alpha2 = lobe.alpha * lobe.alpha;
         ndf.push_back(std::exp(-s.tan2 / alpha2) * s.inv_cos4 / (std::numbers::pi * alpha2));
     }
-    const Cosines at = {s.ci, s.co, 1.0 / std::sqrt(1.0 + s.tan2), std::cos(theta_d)};
-    return value(m.model, widened, ndf, fresnel_sets(m, theta_d), at);
+    return value(model_, widened_, ndf, fresnel_, {s.ci, s.co, 1.0 / std::sqrt(1.0 + s.tan2), cos_d_});
 }
 
 } // namespace smx

@@ -25,7 +25,19 @@ class MaterialValue {
     std::vector<std::vector<Rgb>> fresnel_; // [theta_d][set]
 };
 
-// At a sample of the fit, its lobes of squared alpha a^2 + the sample's displacement2: the closed form's widening.
-Rgb material_at(const Material &material, double theta_d, const DirectionSample &sample);
+// At samples of one theta_d on one displaced surface, its lobes of squared alpha a^2 + displacement2: the closed form's
+// widening.
+class MaterialAtLevel {
+  public:
+    MaterialAtLevel(const Material &material, double theta_d, double displacement2);
+
+    Rgb operator()(const DirectionSample &sample) const;
+
+  private:
+    Model model_;
+    double cos_d_;
+    std::vector<Lobe> widened_;
+    std::vector<Rgb> fresnel_; // by set
+};
 
 } // namespace smx
