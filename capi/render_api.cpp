@@ -16,8 +16,8 @@ Scene to_cpp(const smx_scene &s) {
 }
 
 RenderOptions to_cpp(const smx_render_options &o) {
-    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp,          o.seed,
-                      static_cast<Lookup>(o.lookup),   o.target_error, {}};
+    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp, o.seed, static_cast<Lookup>(o.lookup), o.target_error, {},
+                      static_cast<Grade>(o.grade)};
     if (o.progress)
         out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
     return out;

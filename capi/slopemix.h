@@ -474,6 +474,13 @@ typedef enum smx_sampler {
                          * by the balance heuristic: for sharp materials */
 } smx_sampler;
 
+/* How exact the arithmetic of the kernels is. */
+typedef enum smx_grade {
+    SMX_GRADE_PRECISE = 0, /* float, elementary functions to about 2 units in the last place */
+    SMX_GRADE_FAST = 1,    /* float, elementary functions to about 1e-4 */
+    SMX_GRADE_DOUBLE = 2   /* double, slow, for checking; pixels are still float32. Needs cl_khr_fp64 on the device */
+} smx_grade;
+
 typedef struct smx_render_options {
     size_t size;
     smx_sampler sampler; /* these five: reference only */
@@ -484,9 +491,10 @@ typedef struct smx_render_options {
                             it, not spp */
     smx_progress_fn progress; /* or NULL */
     void *progress_user;
+    smx_grade grade; /* not of smx_render_geometry */
 } smx_render_options;
 #define SMX_RENDER_OPTIONS_INIT \
-    { sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL }
+    { sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, SMX_GRADE_PRECISE }
 
 typedef struct smx_render_report {
     size_t size;

@@ -47,7 +47,7 @@ inline float lane_0(realW v) {
 }
 
 inline Pixel pixel_at(const SphereView *view, int column, int row) {
-    SpherePoint s = sphere_point(view, (intW)column, (intW)row);
+    SpherePoint s = sphere_point(view, (intW)column, row);
     Pixel p;
     p.ix = lane_0(SPHERE_LOCAL_X(s, view->wi_x, view->wi_y));
     p.iy = lane_0(SPHERE_LOCAL_Y(s, view->wi_x, view->wi_y));
@@ -200,7 +200,7 @@ __kernel void finish_reference(__global float4 *rgba, __global float4 *errors, _
                                int scrambles) {
     int first_column = W * (int)get_global_id(0);
     int band_row = (int)get_global_id(1);
-    SpherePoint s = sphere_point(&view, first_column + laneW, (intW)(first_row + band_row));
+    SpherePoint s = sphere_point(&view, first_column + laneW, first_row + band_row);
     realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
     realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
     realW p_i = mean_plane(&x, ix, iy, iz), p_o = mean_plane(&x, s.ty, s.by, s.ny);

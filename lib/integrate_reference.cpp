@@ -64,8 +64,8 @@ class Integration {
     struct PassKernels {
         cl::Kernel draw, integrate;
     };
-    PassKernels make_pass(const Pass &pass, const Defines &defines, const DeviceDisplacement &x);
-    void make_closing_kernels(const Defines &defines, const DeviceDisplacement &x);
+    PassKernels make_pass(const Pass &pass, const Defines &defines, const Displacement &x);
+    void make_closing_kernels(const Defines &defines, const Displacement &x);
     void run_pass(std::size_t index, std::uint32_t scramble, const Band &band,
                   const std::function<void(std::uint32_t)> &done);
     void launch(cl::Kernel &kernel, const cl::NDRange &range);
@@ -73,6 +73,7 @@ class Integration {
 
     Context &context_;
     const Scene &scene_;
+    Grade grade_;
     std::uint64_t seed_;
     SamplingPlan plan_;
     std::uint32_t per_launch_, stride_;
@@ -88,6 +89,7 @@ Integration::Integration(Context &context, const Brdf &brdf, const std::vector<L
                          const RenderOptions &options, std::uint32_t spp)
     : context_(context),
       scene_(scene),
+      grade_(options.grade),
       seed_(options.seed),
       plan_(sampling_plan(scene.displacement, options.sampler, spp)),
       per_launch_(facets_per_launch(scene, plan_)),
@@ -103,11 +105,11 @@ Integration::Integration(Context &context, const Brdf &brdf, const std::vector<L
       deviations_(empty_buffer<cl_float4>(context, band_pixels(scene))),
       rgba_(empty_buffer<cl_float4>(context, band_pixels(scene))),
       errors_(empty_buffer<cl_float4>(context, band_pixels(scene))) {
-    const Defines defines = {{"G2_SEPARABLE", scene.masking == Masking::Separable},
+    const Defines defines = {{"GRADE", static_cast<int>(grade_)},
+                             {"G2_SEPARABLE", scene.masking == Masking::Separable},
                              {"LOOKUP_NEAREST", options.lookup == Lookup::Nearest}};
-    const DeviceDisplacement x = to_device(scene.displacement);
-    for (const Pass &pass : plan_.passes) passes_.push_back(make_pass(pass, defines, x));
-    make_closing_kernels(defines, x);
+    for (const Pass &pass : plan_.passes) passes_.push_back(make_pass(pass, defines, scene.displacement));
+    make_closing_kernels(defines, scene.displacement);
     // Lanes past the last facet are computed and dropped, so what they read must be numbers.
     context.queue().enqueueFillBuffer(facets_, 0.0f, 0, facet_planes * stride_ * sizeof(float));
     const std::size_t bytes = band_pixels(scene) * sizeof(cl_float4);
@@ -115,7 +117,7 @@ Integration::Integration(Context &context, const Brdf &brdf, const std::vector<L
     context.queue().enqueueFillBuffer(rests_, 0.0f, 0, bytes);
 }
 
-Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines &defines, const DeviceDisplacement &x) {
+Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines &defines, const Displacement &x) {
     PassKernels kernels;
     const auto stride = static_cast<cl_int>(stride_);
     const char *names[] = {"draw_grid", "draw_sobol", "draw_about_z"};
@@ -127,7 +129,7 @@ Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines 
         kernels.draw.setArg(5, static_cast<cl_int>(proposal_size_));
         kernels.draw.setArg(6, density_);
     } else {
-        kernels.draw.setArg(4, x);
+        kernels.draw.setArg(4, to_device(x));
     }
     if (pass.drawing == Drawing::Grid) {
         kernels.draw.setArg(5, static_cast<cl_uint>(pass.strata_1));
@@ -139,8 +141,8 @@ Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines 
     kernels.integrate = context_.kernel(kernel_file, "integrate_reference", with_technique);
     kernels.integrate.setArg(0, sums_);
     kernels.integrate.setArg(1, rests_);
-    kernels.integrate.setArg(2, to_device(scene_));
-    kernels.integrate.setArg(4, x);
+    set_arg(kernels.integrate, 2, scene_, grade_);
+    set_arg(kernels.integrate, 4, x, grade_);
     kernels.integrate.setArg(5, slice_);
     kernels.integrate.setArg(6, density_);
     kernels.integrate.setArg(7, facets_);
@@ -148,7 +150,7 @@ Integration::PassKernels Integration::make_pass(const Pass &pass, const Defines 
     return kernels;
 }
 
-void Integration::make_closing_kernels(const Defines &defines, const DeviceDisplacement &x) {
+void Integration::make_closing_kernels(const Defines &defines, const Displacement &x) {
     Defines with_technique = defines;
     with_technique["TECHNIQUE"] = static_cast<int>(plan_.passes[0].technique); // any that is built already
     fold_ = context_.kernel(kernel_file, "fold_scramble", with_technique);
@@ -163,8 +165,8 @@ void Integration::make_closing_kernels(const Defines &defines, const DeviceDispl
     finish_.setArg(1, errors_);
     finish_.setArg(2, means_);
     finish_.setArg(3, deviations_);
-    finish_.setArg(4, to_device(scene_));
-    finish_.setArg(6, x);
+    set_arg(finish_, 4, scene_, grade_);
+    set_arg(finish_, 6, x, grade_);
     finish_.setArg(7, static_cast<cl_int>(plan_.scrambles));
 }
 
@@ -252,6 +254,7 @@ void describe_reference(Image &image, const Brdf &brdf, const Scene &scene, cons
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
     attributes["slopemix.sampler"] = samplers[static_cast<int>(options.sampler)];
     attributes["slopemix.spp"] = std::to_string(options.target_error > 0.0 ? report.spp : options.spp);
+    attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.seed"] = std::to_string(options.seed);
     attributes["slopemix.lookup"] = options.lookup == Lookup::Nearest ? "nearest" : "linear";
     if (report.standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(report.standard_error);
@@ -263,6 +266,7 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
                              const RenderOptions &options) {
     validate(scene);
     validate(options);
+    validate(options.grade, context);
     const Context::Lock lock(context);
     const CallTimer timer(context);
     Rendered result{Image(scene.width, scene.height), {}};

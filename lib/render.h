@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "context.h"
+#include "grade.h"
 #include "image.h"
 #include "scene.h"
 
@@ -20,6 +21,7 @@ struct RenderOptions {
     Lookup lookup = Lookup::Linear;
     double target_error = 0.0; // 0: spp samples; else as many as bring the standard error of the image below it
     std::function<bool(double share)> progress; // returns true to stop
+    Grade grade = Grade::Precise;
 };
 
 struct RenderReport {

@@ -59,9 +59,10 @@ PrincipalAxes principal_axes(const Displacement &x) {
     return {std::cos(angle), std::sin(angle), larger, significant(smaller)};
 }
 
-DeviceDisplacement to_device(const Displacement &x) {
+template <typename Real>
+DeviceDisplacement<Real> to_device(const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
-    const auto f = [](double v) { return static_cast<float>(v); };
+    const auto f = [](double v) { return static_cast<Real>(v); };
     return {f(x.mean_slope_x),
             f(x.mean_slope_y),
             f(x.alpha_x * x.alpha_x),
@@ -72,6 +73,9 @@ DeviceDisplacement to_device(const Displacement &x) {
             f(axes.var_1),
             f(axes.var_2)};
 }
+
+template DeviceDisplacement<float> to_device(const Displacement &);
+template DeviceDisplacement<double> to_device(const Displacement &);
 
 namespace {
 
@@ -84,16 +88,21 @@ double view_to_light(const Scene &s) {
 
 double theta_d(const Scene &s) { return std::abs(view_to_light(s)) / 2; }
 
-DeviceView to_device(const Scene &s) {
+template <typename Real>
+DeviceView<Real> to_device(const Scene &s) {
     const double turn = view_to_light(s);
-    const auto f = [](double v) { return static_cast<float>(v); };
+    const auto f = [](double v) { return static_cast<Real>(v); };
     return {static_cast<std::int32_t>(s.width),
             static_cast<std::int32_t>(s.height),
+            f(1.0 / std::min(s.width, s.height)),
             f(-std::sin(turn)),
             f(std::cos(turn)),
             f(-std::sin(turn / 2)),
             f(std::cos(turn / 2))};
 }
+
+template DeviceView<float> to_device(const Scene &);
+template DeviceView<double> to_device(const Scene &);
 
 namespace {
 
@@ -120,7 +129,7 @@ std::uint64_t sphere_pixels(const Scene &s) {
 }
 
 std::uint64_t lit_pixels(const Scene &s) {
-    const DeviceView view = to_device(s);
+    const DeviceView view = to_device<float>(s);
     std::uint64_t count = 0;
     visit_sphere(s, [&](std::int64_t right, std::int64_t depth2) {
         const double cos_i =

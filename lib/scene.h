@@ -27,19 +27,22 @@ constexpr std::uint32_t max_side = 16384;
 void validate(const Displacement &displacement);
 void validate(const Scene &scene);
 
-// As in cl/displacement.clh.
+// As in cl/displacement.clh; Real is float, or double in the grade of that name (grade.h).
+template <typename Real = float>
 struct DeviceDisplacement {
-    float mean_x, mean_y;
-    float cov_xx, cov_xy, cov_yy;
-    float axis_x, axis_y;
-    float var_1, var_2;
+    Real mean_x, mean_y;
+    Real cov_xx, cov_xy, cov_yy;
+    Real axis_x, axis_y;
+    Real var_1, var_2;
 };
 
 // As in cl/sphere.clh.
+template <typename Real = float>
 struct DeviceView {
     std::int32_t width, height;
-    float wi_x, wi_y;
-    float wh_x, wh_y;
+    Real inv_side;
+    Real wi_x, wi_y;
+    Real wh_x, wh_y;
 };
 
 // Covariance and principal axes, in double before they are rounded.
@@ -49,8 +52,10 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(const Displacement &displacement);
 
-DeviceDisplacement to_device(const Displacement &displacement);
-DeviceView to_device(const Scene &scene);
+template <typename Real = float>
+DeviceDisplacement<Real> to_device(const Displacement &displacement);
+template <typename Real = float>
+DeviceView<Real> to_device(const Scene &scene);
 
 // Half the angle between light and view, 0..pi/2: one for the whole image.
 double theta_d(const Scene &scene);

@@ -14,36 +14,49 @@ namespace {
 constexpr const char *kernel_file = "shade_filtered.cl";
 
 // As in cl/mixture.clh.
+template <typename Real>
 struct DeviceLobe {
-    float weight, alpha2, inv_var_1, inv_var_2, peak;
+    Real weight, alpha2, exponent_1, exponent_2, peak;
 };
 
 // Each lobe's variances plus X's, along X's principal axes.
-std::vector<DeviceLobe> widened_lobes(const Material &material, const Displacement &x) {
+template <typename Real>
+std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
-    std::vector<DeviceLobe> lobes;
+    const auto r = [](double v) { return static_cast<Real>(v); };
+    std::vector<DeviceLobe<Real>> lobes;
     for (const auto &[share, alpha] : material.lobes) {
         const double weight = material.model == Model::Shared ? share : 1.0;
         const double alpha2 = alpha * alpha, var_1 = alpha2 + axes.var_1, var_2 = alpha2 + axes.var_2;
         const double peak = weight / (std::numbers::pi * std::sqrt(var_1) * std::sqrt(var_2));
-        lobes.push_back({static_cast<float>(weight), static_cast<float>(alpha2), static_cast<float>(1.0 / var_1),
-                         static_cast<float>(1.0 / var_2), static_cast<float>(peak)});
+        lobes.push_back(
+            {r(weight), r(alpha2), r(-std::numbers::log2e / var_1), r(-std::numbers::log2e / var_2), r(peak)});
     }
     return lobes;
 }
 
-Defines defines(Model model, Masking masking) {
-    return {{"PER_LOBE", model == Model::PerLobe}, {"G2_SEPARABLE", masking == Masking::Separable}};
+cl::Buffer lobe_buffer(const Context &context, const Material &material, const Displacement &x, Grade grade) {
+    return with_real(grade,
+                     [&](auto real) { return buffer_from(context, widened_lobes<decltype(real)>(material, x)); });
 }
 
-// F at one angle, one entry per set of curves.
-std::vector<cl_float4> fresnel_at_angle(const Material &material, double theta_d) {
-    std::vector<cl_float4> values;
-    for (const FresnelCurves &curves : material.fresnel) {
-        const Rgb f = fresnel_at(material.theta_d, curves, theta_d);
-        values.push_back({{static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2]), 0.0f}});
-    }
-    return values;
+Defines defines(Model model, Masking masking, Grade grade) {
+    return {{"PER_LOBE", model == Model::PerLobe},
+            {"G2_SEPARABLE", masking == Masking::Separable},
+            {"GRADE", static_cast<int>(grade)}};
+}
+
+// F at one angle, one entry (r, g, b, 0) per set of curves.
+cl::Buffer fresnel_at_angle(const Context &context, const Material &material, double theta_d, Grade grade) {
+    return with_real(grade, [&](auto real) {
+        std::vector<decltype(real)> values;
+        for (const FresnelCurves &curves : material.fresnel) {
+            for (double f : fresnel_at(material.theta_d, curves, theta_d))
+                values.push_back(static_cast<decltype(real)>(f));
+            values.push_back(0);
+        }
+        return buffer_from(context, values);
+    });
 }
 
 // All curves, as cl/fresnel.clh reads them.
@@ -66,21 +79,23 @@ std::vector<float> packed_knots(const Material &material) {
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
+    validate(options.grade, context);
     const Context::Lock lock(context);
     const CallTimer timer(context);
     Rendered result{Image(scene.width, scene.height), {}};
     report_progress(options, 0.0);
 
-    const std::vector<DeviceLobe> lobes = widened_lobes(material, scene.displacement);
-    const cl::Buffer fresnel = buffer_from(context, fresnel_at_angle(material, theta_d(scene)));
+    const Grade grade = options.grade;
+    const cl::Buffer fresnel = fresnel_at_angle(context, material, theta_d(scene), grade);
     const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene));
-    const cl::Buffer lobe_buffer = buffer_from(context, lobes);
-    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking));
+    const cl::Buffer lobes = lobe_buffer(context, material, scene.displacement, grade);
+    cl::Kernel kernel =
+        context.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking, grade));
     kernel.setArg(0, rgba);
-    kernel.setArg(1, to_device(scene));
-    kernel.setArg(3, to_device(scene.displacement));
-    kernel.setArg(4, lobe_buffer);
-    kernel.setArg(5, static_cast<cl_int>(lobes.size()));
+    set_arg(kernel, 1, scene, grade);
+    set_arg(kernel, 3, scene.displacement, grade);
+    kernel.setArg(4, lobes);
+    kernel.setArg(5, static_cast<cl_int>(material.lobes.size()));
     kernel.setArg(6, fresnel);
 
     KernelTime time;
@@ -97,6 +112,7 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     describe(result.image, "filtered", scene);
     result.image.attributes["slopemix.material"] = material.name;
     result.image.attributes["slopemix.model"] = model_name(material.model);
+    result.image.attributes["slopemix.grade"] = grade_name(grade);
     result.image.attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
     result.report = timer.finish(context, time.seconds(), sphere_pixels(scene));
     return result;
@@ -112,21 +128,21 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
     if (count == 0) return;
 
     const Context::Lock lock(context);
-    const std::vector<DeviceLobe> lobes = widened_lobes(material, displacement);
+    constexpr Grade grade = Grade::Precise;
     const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
-    const cl::Buffer lobe_buffer = buffer_from(context, lobes);
+    const cl::Buffer lobes = lobe_buffer(context, material, displacement, grade);
     const cl::Buffer curves = buffer_from(context, packed_curves(material));
     const cl::Buffer knots = buffer_from(context, packed_knots(material));
-    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(material.model, masking));
+    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(material.model, masking, grade));
     kernel.setArg(0, out);
     kernel.setArg(1, static_cast<cl_int>(stride));
     kernel.setArg(2, wi_buffer);
     kernel.setArg(3, wo_buffer);
-    kernel.setArg(4, to_device(displacement));
-    kernel.setArg(5, lobe_buffer);
-    kernel.setArg(6, static_cast<cl_int>(lobes.size()));
+    set_arg(kernel, 4, displacement, grade);
+    kernel.setArg(5, lobes);
+    kernel.setArg(6, static_cast<cl_int>(material.lobes.size()));
     kernel.setArg(7, curves);
     kernel.setArg(8, knots);
     kernel.setArg(9, static_cast<cl_int>(material.theta_d.size()));
