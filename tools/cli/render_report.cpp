@@ -38,6 +38,7 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["seed"] = job.is_reference() ? Json(job.flags.seed) : Json();
     json["lookup"] = job.is_reference() ? Json(word_for(job.flags.lookup, lookups)) : Json();
     json["device"] = rendered.device;
+    json["devices"] = rendered.devices;
     return json;
 }
 
