@@ -18,12 +18,14 @@ void fill(smx_device_info &out, const DeviceInfo &in) {
     out.compute_units = in.compute_units;
     out.global_memory = in.global_memory;
     out.vector_width = in.vector_width;
+    out.devices = in.devices;
 }
 
 std::shared_ptr<Context> make_context(const smx_context_options &o) {
     require(!o.cl_context == !o.cl_queue, "cl_context and cl_queue must both be given or both be null");
-    if (!o.cl_context) return std::make_shared<Context>(o.device ? o.device : "", o.vector_width);
+    if (!o.cl_context) return std::make_shared<Context>(o.device ? o.device : "", o.vector_width, o.sub_devices);
     require(!o.device, "device must be null when cl_context is given: the queue has its device");
+    require(o.sub_devices <= 1, "sub_devices is ", o.sub_devices, "; it must be 0 or 1 when cl_context is given");
     const cl::Context context(static_cast<cl_context>(o.cl_context), true);
     const cl::CommandQueue queue(static_cast<cl_command_queue>(o.cl_queue), true);
     return std::make_shared<Context>(context, queue, o.vector_width);

@@ -37,6 +37,10 @@ smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t *height
 
 const float *smx_image_pixels(smx_image image) { return image ? image->object->rgba.data() : nullptr; }
 
+const float *smx_image_errors(smx_image image) {
+    return image && !image->object->errors.empty() ? image->object->errors.data() : nullptr;
+}
+
 smx_status smx_image_set_attribute(smx_image image, const char *key, const char *value) {
     return guarded([&] {
         require_pointer(image, "image");

@@ -1,4 +1,4 @@
-// smx_render_*, smx_material_eval, smx_brdf_eval
+// smx_render_*, smx_material_eval, smx_brdf_eval, smx_brdf_integrate
 #include "draw_geometry.h"
 #include "eval_table.h"
 #include "handles.h"
@@ -16,11 +16,29 @@ Scene to_cpp(const smx_scene &s) {
 }
 
 RenderOptions to_cpp(const smx_render_options &o) {
-    RenderOptions out{static_cast<Sampler>(o.sampler), o.spp, o.seed, static_cast<Lookup>(o.lookup), o.target_error, {},
-                      static_cast<Grade>(o.grade)};
+    RenderOptions out;
+    out.sampler = static_cast<Sampler>(o.sampler);
+    out.spp = o.spp;
+    out.seed = o.seed;
+    out.lookup = static_cast<Lookup>(o.lookup);
+    out.target_error = o.target_error;
+    out.grade = static_cast<Grade>(o.grade);
+    out.errors = o.errors != 0;
+    out.whole_table = o.whole_table != 0;
+    if (o.exr_path) out.exr_path = o.exr_path;
+    require(!o.exr_path || *o.exr_path, "exr_path is empty; it must be a file's path or null");
     if (o.progress)
         out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
     return out;
+}
+
+void fill(smx_render_report *report, const RenderReport &r) {
+    if (!report) return;
+    *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp, r.standard_error};
+}
+
+ProposalSource proposal_of(smx_brdf brdf) {
+    return [proposal = brdf->proposal]() -> const std::vector<Lobe> & { return proposal->lobes(); };
 }
 
 // What the three integrators have in common: arguments, and outputs that are written only at the end.
@@ -32,17 +50,14 @@ smx_status render(smx_context context, const void *material, const char *materia
         require_pointer(context, "context");
         require_pointer(material, material_name);
         require_pointer(scene, "scene");
-        require_pointer(image, "image");
         if (report) check_output(report, "report");
         const Scene s = to_cpp(checked(scene, smx_scene{}, "scene"));
         const RenderOptions o = to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options"));
+        if (o.exr_path.empty()) require_pointer(image, "image");
+        require(o.exr_path.empty() || !image, "image must be null where exr_path takes the image");
         Rendered rendered = integrator(*context->object, s, o);
-        const RenderReport r = rendered.report;
-        *image = new smx_image_s(std::make_shared<Image>(std::move(rendered.image)));
-        if (report) {
-            *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds,
-                       r.evaluations,  r.spp,     r.standard_error};
-        }
+        if (rendered.image) *image = new smx_image_s(std::make_shared<Image>(std::move(*rendered.image)));
+        fill(report, rendered.report);
     });
 }
 
@@ -64,9 +79,7 @@ smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_sc
     return render(context, brdf, "brdf", scene, options, image, report,
                   [&](Context &c, const Scene &s, const RenderOptions &o) {
                       const auto kept = brdf->object;
-                      const auto proposal = brdf->proposal;
-                      return integrate_reference(
-                          c, *kept, [&]() -> const std::vector<Lobe> & { return proposal->lobes(); }, s, o);
+                      return integrate_reference(c, *kept, proposal_of(brdf), s, o);
                   });
 }
 
@@ -99,6 +112,25 @@ smx_status smx_brdf_eval(smx_context context, smx_brdf brdf, smx_lookup lookup, 
         require_pointer(wo, "wo");
         require_pointer(f, "f");
         eval_table(*context->object, *brdf->object, static_cast<Lookup>(lookup), count, wi, wo, f);
+    });
+}
+
+smx_status smx_brdf_integrate(smx_context context, smx_brdf brdf, const smx_displacement *displacement,
+                              smx_masking masking, const smx_render_options *options, size_t count, const float *wi,
+                              const float *wo, float *fcos, float *errors, smx_render_report *report) {
+    return guarded([&] {
+        require_pointer(context, "context");
+        require_pointer(brdf, "brdf");
+        require_pointer(displacement, "displacement");
+        require_pointer(wi, "wi");
+        require_pointer(wo, "wo");
+        require_pointer(fcos, "fcos");
+        if (report) check_output(report, "report");
+        RenderOptions o = to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options"));
+        o.errors = errors != nullptr;
+        const auto kept = brdf->object;
+        fill(report, integrate_pairs(*context->object, *kept, proposal_of(brdf), to_cpp(*displacement),
+                                     static_cast<Masking>(masking), o, count, wi, wo, fcos, errors));
     });
 }
 }

@@ -89,9 +89,10 @@ typedef struct smx_device_info {
     uint32_t compute_units;
     uint64_t global_memory; /* bytes */
     uint32_t vector_width;  /* evaluations per work-item that slopemix uses on it: 1, 4, 8 or 16 */
+    uint32_t devices;       /* of a context: how many work together; compute_units is their sum, all else the first's */
 } smx_device_info;
 #define SMX_DEVICE_INFO_INIT \
-    { sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0 }
+    { sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0, 0 }
 
 /* Number of OpenCL devices over all platforms; 0 is not an error.
  * Statuses: INVALID_ARGUMENT (count is null). */
@@ -103,15 +104,20 @@ SMX_API smx_status smx_device_get_info(uint32_t index, smx_device_info *info);
 
 typedef struct smx_context_options {
     size_t size;
-    const char *device;    /* NULL: first CPU, else first device; digits: an index; else part of a name, any case */
+    const char *device;    /* NULL: first CPU, else first device; digits: an index; else part of a name, any case;
+                              several, separated by commas, work together */
     void *cl_context;      /* the caller's cl_context and cl_command_queue, both or neither; retained; the queue */
     void *cl_queue;        /*   must be in order; `device` must be NULL */
-    uint32_t vector_width; /* 0: from the device; else 1, 4, 8 or 16 evaluations per work-item */
+    uint32_t vector_width; /* 0: from the first device; else 1, 4, 8 or 16 evaluations per work-item */
+    uint32_t sub_devices;  /* 0 or 1: devices are whole; else each is cut into as many like sub-devices, at most its
+                              compute units; not with cl_context */
 } smx_context_options;
 #define SMX_CONTEXT_OPTIONS_INIT \
-    { sizeof(smx_context_options), NULL, NULL, NULL, 0 }
+    { sizeof(smx_context_options), NULL, NULL, NULL, 0, 0 }
 
-/* A device, its queue and the kernels built for it. Kernels are built on first use and kept.
+/* Devices, their queues and the kernels built for them. Kernels are built on first use and kept. Rendering and
+ * smx_brdf_integrate take tiles from one queue on all devices, with the same bits on any number of like devices at one
+ * vector_width; smx_material_eval and smx_brdf_eval run on the first.
  * Statuses: INVALID_ARGUMENT, NO_DEVICE, DEVICE_ERROR. */
 typedef struct smx_context_s *smx_context;
 SMX_API smx_status smx_context_create(const smx_context_options *options, smx_context *context);
@@ -470,8 +476,8 @@ typedef struct smx_scene {
 typedef enum smx_sampler {
     SMX_SAMPLER_GRID = 0,  /* n x n jittered strata of X's slopes; no estimate of the error */
     SMX_SAMPLER_SOBOL = 1, /* X's slopes from Owen-scrambled Sobol points */
-    SMX_SAMPLER_MIS = 2 /* half of them from X, half from the base material's own mixture about the half vector, joined
-                         * by the balance heuristic: for sharp materials */
+    SMX_SAMPLER_MIS = 2    /* the default: half of them from X, half from the base material's own mixture about the half
+                            * vector, joined by the balance heuristic */
 } smx_sampler;
 
 /* How exact the arithmetic of the kernels is. */
@@ -483,7 +489,7 @@ typedef enum smx_grade {
 
 typedef struct smx_render_options {
     size_t size;
-    smx_sampler sampler; /* these five: reference only */
+    smx_sampler sampler; /* these seven: reference only */
     uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid, even for mis */
     uint64_t seed;
     smx_lookup lookup;
@@ -491,16 +497,23 @@ typedef struct smx_render_options {
                             it, not spp */
     smx_progress_fn progress; /* or NULL */
     void *progress_user;
+    int errors;      /* nonzero: the image carries its standard errors (smx_image_errors); not with the grid, and
+                        spp, where it counts, must be a multiple of 16 */
+    int whole_table; /* nonzero: each lookup is in the whole table, not in a slice that is cut for the image; slower,
+                        and the same but for rounding */
+    const char *exr_path; /* not NULL: the image is written to this EXR file as it comes, in bounded memory, and `image`
+                             must be NULL. Atomic. Such a file lacks the attribute slopemix.standard_error */
     smx_grade grade; /* not of smx_render_geometry */
 } smx_render_options;
 #define SMX_RENDER_OPTIONS_INIT \
-    { sizeof(smx_render_options), SMX_SAMPLER_GRID, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, SMX_GRADE_PRECISE }
+    { sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL, \
+      SMX_GRADE_PRECISE }
 
 typedef struct smx_render_report {
     size_t size;
     double seconds;        /* the whole call */
-    double kernel_seconds; /* on the device, from OpenCL's events */
-    double build_seconds;  /* compiling kernels that were not built yet */
+    double kernel_seconds; /* on the busiest device, from OpenCL's events */
+    double build_seconds;  /* compiling kernels that were not built yet, on the device that took longest */
     uint64_t evaluations;  /* of the shading or the integrand: pixels (lit ones in a reference) times samples */
     uint32_t spp;          /* samples per pixel of a reference; 0 for the others */
     double standard_error; /* of a reference, from independent scrambles: root mean square over the image's. Negative
@@ -511,8 +524,9 @@ typedef struct smx_render_report {
 
 typedef struct smx_image_s *smx_image;
 
-/* The mixture widened by X in closed form, one evaluation per pixel. `report` may be NULL.
- * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED. */
+/* The mixture widened by X in closed form, one evaluation per pixel. `report` may be NULL, and `image` must be where
+ * options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED,
+ * CANNOT_WRITE. */
 SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
 
@@ -530,6 +544,17 @@ SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *sce
  * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
                                      smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
+
+/* The reference of smx_material_eval: f cos of the measured table integrated over X's facets, for `count` pairs of
+ * directions. wi, wo, fcos, errors are planes, [3][count]: all x (or red), all y, all z. `errors` takes the standard
+ * errors, on the options' terms for an image's, or is NULL; options->errors and ->whole_table have no effect,
+ * ->exr_path must be NULL. The report's standard_error and a target_error are over all pairs. 0 where either direction
+ * is not above the surface; unit vectors, as there. All pairs share their facets: give many at once.
+ * Statuses: those of smx_render_reference. */
+SMX_API smx_status smx_brdf_integrate(smx_context context, smx_brdf brdf, const smx_displacement *displacement,
+                                      smx_masking masking, const smx_render_options *options, size_t count,
+                                      const float *wi, const float *wo, float *fcos, float *errors,
+                                      smx_render_report *report);
 
 /* f of the measured table in 1/sr, NOT times a cosine, for `count` pairs of directions. wi, wo, f: [count][3], packed.
  * Half and difference angles of the pair, phi_d modulo pi, values past the last theta_h or theta_d are the last node's
@@ -551,14 +576,19 @@ SMX_API smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t
 /* The pixels, [height][width][4], owned by the image and valid while it lives; NULL for a null image. */
 SMX_API const float *smx_image_pixels(smx_image image);
 
+/* Standard errors of a reference that was rendered with options.errors, or read from such a file: of R, G and B, and
+ * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. */
+SMX_API const float *smx_image_errors(smx_image image);
+
 /* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered
  * image carries its configuration under "slopemix.*".
  * Statuses: INVALID_ARGUMENT. smx_image_get_attribute gives a borrowed string, NULL if there is none of that name. */
 SMX_API smx_status smx_image_set_attribute(smx_image image, const char *key, const char *value);
 SMX_API const char *smx_image_get_attribute(smx_image image, const char *key);
 
-/* EXR: channels R, G, B, A as float32, scan lines, linear. Reading takes any EXR that has R, G and B (alpha 1 where
- * there is no A). Writing is atomic. Statuses: INVALID_ARGUMENT, CANNOT_READ, CANNOT_WRITE, BAD_FORMAT. */
+/* EXR: channels R, G, B, A as float32, scan lines, linear; error.R, error.G, error.B too for an image with standard
+ * errors. Reading takes any EXR that has R, G and B (alpha 1 where there is no A), and its errors where all three are.
+ * Writing is atomic. Statuses: INVALID_ARGUMENT, CANNOT_READ, CANNOT_WRITE, BAD_FORMAT. */
 SMX_API smx_status smx_image_read_exr(const char *path, smx_image *image);
 SMX_API smx_status smx_image_write_exr(smx_image image, const char *path);
 

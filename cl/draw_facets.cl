@@ -1,5 +1,5 @@
 // Facets for the reference, drawn once per image, so that nothing here is in the integration's loop. One work-item per
-// facet.
+// facet: number first + its own, of `size`.
 #include "displacement.clh"
 #include "proposal.clh"
 #include "quantile.clh"
@@ -22,9 +22,10 @@ inline void store_facet_of_x(__global float *facets, int stride, uint at, Displa
 }
 
 // Jittered strata, strata_1 x strata_2 along X's principal axes; samples first, first + 1, ...
-__kernel void draw_grid(__global float *facets, int stride, uint first, uint seed, Displacement x, uint strata_1,
-                        uint strata_2) {
+__kernel void draw_grid(__global float *facets, int stride, uint first, uint size, uint seed, Displacement x,
+                        uint strata_1, uint strata_2) {
     uint at = (uint)get_global_id(0);
+    if (at >= size) return;
     uint index = first + at;
     uint hash = pcg(index ^ pcg(seed));
     float t1 = slope_at(index / strata_2, strata_1, uniform_open(hash));
@@ -33,8 +34,9 @@ __kernel void draw_grid(__global float *facets, int stride, uint first, uint see
 }
 
 // Scrambled Sobol points through the slopes' quantiles.
-__kernel void draw_sobol(__global float *facets, int stride, uint first, uint seed, Displacement x) {
+__kernel void draw_sobol(__global float *facets, int stride, uint first, uint size, uint seed, Displacement x) {
     uint at = (uint)get_global_id(0);
+    if (at >= size) return;
     uint2 bits = sobol_bits(first + at, seed);
     // The high half says where among 2^16 strata, the low half where within it: 32 bits where a float holds 24.
     float t1 = slope_at(bits.x >> 16, 65536u, uniform_open(bits.x << 16));
@@ -44,9 +46,10 @@ __kernel void draw_sobol(__global float *facets, int stride, uint first, uint se
 
 // Facets of the base about +z from scrambled Sobol points, [4][stride]: x, y and z - 1 of the unit normal, then the
 // tabulated density over the true one. `lobes` holds (cumulated weight, alpha) of a mixture of `count` lobes.
-__kernel void draw_about_z(__global float *facets, int stride, uint first, uint seed, __constant float2 *lobes,
-                           int count, __constant float *density) {
+__kernel void draw_about_z(__global float *facets, int stride, uint first, uint size, uint seed,
+                           __constant float2 *lobes, int count, __constant float *density) {
     uint at = (uint)get_global_id(0);
+    if (at >= size) return;
     uint2 bits = sobol_bits(first + at, seed);
 
     // Choose the lobe by the first number, and use what is left of it within the lobe.

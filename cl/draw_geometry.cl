@@ -40,6 +40,7 @@ inline float3 surface_normal(__constant const Wave *waves, int count, float radi
 __kernel void draw_geometry(__global float4 *rgba, int width, int height, int first_row, __constant Wave *waves,
                             int count, float radius) {
     int column = (int)get_global_id(0), band_row = (int)get_global_id(1), row = first_row + band_row;
+    if (column >= width) return;
     float inv_side = 1.0f / (float)min(width, height);
     float x = (float)(2 * column + 1 - width) * inv_side, z = (float)(height - 2 * row - 1) * inv_side;
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "error.h"
 
@@ -23,32 +24,40 @@ std::string temporary_name(const std::string &path) {
     return text(path, ".part-", getpid(), "-", counter++);
 }
 
-struct Removal {
-    std::string path;
-    ~Removal() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-};
-
 } // namespace
 
-void write_atomically(const std::string &path, const std::function<void(const std::string &)> &write) {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(temporary_name(path_)) {
     std::error_code status;
-    if (fs::is_directory(path, status)) fail(Fault::CannotWrite, "cannot write ", path, ": it is a folder");
+    if (fs::is_directory(path_, status)) fail(Fault::CannotWrite, "cannot write ", path_, ": it is a folder");
+}
 
-    Removal temporary{temporary_name(path)};
+AtomicFile::~AtomicFile() {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::write(const std::function<void(const std::string &)> &action) {
     try {
-        write(temporary.path);
+        action(temporary_);
     } catch (const Error &) {
         throw;
     } catch (const std::bad_alloc &) {
         throw;
     } catch (const std::exception &e) {
-        fail(Fault::CannotWrite, "cannot write ", path, ": ", e.what());
+        fail(Fault::CannotWrite, "cannot write ", path_, ": ", e.what());
     }
-    fs::rename(temporary.path, path, status);
-    if (status) fail(Fault::CannotWrite, "cannot write ", path, ": ", status.message());
+}
+
+void AtomicFile::commit() {
+    std::error_code status;
+    fs::rename(temporary_, path_, status);
+    if (status) fail(Fault::CannotWrite, "cannot write ", path_, ": ", status.message());
+}
+
+void write_atomically(const std::string &path, const std::function<void(const std::string &)> &write) {
+    AtomicFile file(path);
+    file.write(write);
+    file.commit();
 }
 
 void write_atomically(const std::string &path, std::string_view bytes) {

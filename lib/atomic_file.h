@@ -7,6 +7,23 @@
 
 namespace smx {
 
+// For a file that is written over a while, under a temporary name until commit(); without that the temporary goes, and
+// the path is as it was. All throw CannotWrite.
+class AtomicFile {
+  public:
+    explicit AtomicFile(std::string path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile &) = delete;
+    AtomicFile &operator=(const AtomicFile &) = delete;
+
+    // Calls action(temporary).
+    void write(const std::function<void(const std::string &temporary)> &action);
+    void commit();
+
+  private:
+    std::string path_, temporary_;
+};
+
 // Calls write(temporary) and renames the result to `path`. Whatever fails, `path` is as it was and the temporary is
 // gone. Throws CannotWrite.
 void write_atomically(const std::string &path, const std::function<void(const std::string &temporary)> &write);

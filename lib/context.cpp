@@ -1,5 +1,6 @@
 #include "context.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "error.h"
@@ -16,13 +17,25 @@ std::uint32_t chosen_width(std::uint32_t wanted, std::uint32_t native) {
 
 } // namespace
 
-Context::Context(const std::string &wanted, std::uint32_t vector_width)
-    : device_(choose_device(wanted)),
+Context::Context(const cl::Device &device, std::uint32_t vector_width)
+    : device_(device),
       context_(device_),
       queue_(context_, device_, CL_QUEUE_PROFILING_ENABLE),
       info_(device_info(device_)) {
     info_.vector_width = chosen_width(vector_width, info_.vector_width);
 }
+
+Context::Context(const std::vector<cl::Device> &devices, std::uint32_t vector_width)
+    : Context(devices.front(), vector_width) {
+    for (std::size_t k = 1; k < devices.size(); ++k) {
+        others_.emplace_back(new Context(devices[k], width()));
+        info_.compute_units += others_.back()->info_.compute_units;
+    }
+    info_.devices = static_cast<std::uint32_t>(devices.size());
+}
+
+Context::Context(const std::string &wanted, std::uint32_t vector_width, std::uint32_t sub_devices)
+    : Context(choose_devices(wanted, sub_devices), vector_width) {}
 
 Context::Context(const cl::Context &context, const cl::CommandQueue &queue, std::uint32_t vector_width)
     : device_(queue.getInfo<CL_QUEUE_DEVICE>()), context_(context), queue_(queue), info_(device_info(device_)) {
@@ -37,6 +50,18 @@ Context::Lock::Lock(Context &context) : context_(context) {
             "context is in use by the call that this callback belongs to");
     lock_ = std::unique_lock(context.mutex_);
     context.owner_ = std::this_thread::get_id();
+}
+
+std::vector<Context *> Context::devices() {
+    std::vector<Context *> all = {this};
+    for (const auto &other : others_) all.push_back(other.get());
+    return all;
+}
+
+double Context::build_seconds() const {
+    double longest = build_seconds_;
+    for (const auto &other : others_) longest = std::max(longest, other->build_seconds_);
+    return longest;
 }
 
 cl::Program Context::build(const std::string &file, const std::string &options) {

@@ -1,12 +1,15 @@
 // A device, its queue, and the kernels built for it. Kernels are built on first use and kept, by their full source and
-// options; PoCL keeps their binaries on disk itself.
+// options; PoCL keeps their binaries on disk itself. Where several devices work together, each has a context, and the
+// first one holds the others.
 #pragma once
 
 #include <atomic>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "device.h"
 #include "opencl.h"
@@ -18,9 +21,9 @@ using Defines = std::map<std::string, int>;
 
 class Context {
   public:
-    // On a device of ours (device.h says what `wanted` may be), or on a context and queue of the caller's, retained.
-    // vector_width 0: the device's own.
-    Context(const std::string &wanted, std::uint32_t vector_width);
+    // On devices of ours (device.h says what `wanted` may be), or on a context and queue of the caller's, retained.
+    // vector_width 0: the first device's own; all have the same.
+    Context(const std::string &wanted, std::uint32_t vector_width, std::uint32_t sub_devices = 0);
     Context(const cl::Context &context, const cl::CommandQueue &queue, std::uint32_t vector_width);
 
     // The kernel `name` of file `name.cl`, or of `file`, built with W and the defines. A kernel object of its own, so
@@ -31,7 +34,11 @@ class Context {
     std::uint32_t width() const { return info_.vector_width; }
     const cl::Context &cl() const { return context_; }
     const cl::CommandQueue &queue() const { return queue_; }
-    double build_seconds() const { return build_seconds_; } // of all builds so far
+    double build_seconds() const; // of all builds so far, on the device that built longest
+
+    // The devices that work together, this one first. Each is one thread's at a time.
+    std::vector<Context *> devices();
+    std::size_t device_count() const { return 1 + others_.size(); }
 
     // Calls on one context run one after another. Throws InvalidArgument where this thread is in such a call already:
     // in its progress callback.
@@ -48,12 +55,15 @@ class Context {
     };
 
   private:
+    Context(const cl::Device &device, std::uint32_t vector_width);
+    Context(const std::vector<cl::Device> &devices, std::uint32_t vector_width);
     cl::Program build(const std::string &file, const std::string &options);
 
     cl::Device device_;
     cl::Context context_;
     cl::CommandQueue queue_;
     DeviceInfo info_;
+    std::vector<std::unique_ptr<Context>> others_;
     std::map<std::string, cl::Program> programs_;
     double build_seconds_ = 0.0;
     std::mutex mutex_;

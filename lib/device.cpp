@@ -29,6 +29,23 @@ std::uint32_t vector_width(const cl::Device &device) {
     return native >= 16 ? 16 : native >= 8 ? 8 : 4;
 }
 
+cl::Device root_of(const cl::Device &device) {
+    const auto parent = device.getInfo<CL_DEVICE_PARENT_DEVICE>();
+    return parent() ? root_of(parent) : device;
+}
+
+std::vector<cl::Device> parts_of(cl::Device device, std::uint32_t count) {
+    const auto units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    require(count <= units, "sub_devices is ", count, "; it must be 0..", units, " on ",
+            trimmed(device.getInfo<CL_DEVICE_NAME>()));
+    const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY,
+                                                    static_cast<cl_device_partition_property>(units / count), 0};
+    std::vector<cl::Device> parts;
+    device.createSubDevices(equally, &parts);
+    parts.resize(count); // where the units do not divide, there is one too many
+    return parts;
+}
+
 std::string list_of(const std::vector<cl::Device> &devices) {
     std::string list;
     for (std::size_t k = 0; k < devices.size(); ++k)
@@ -61,7 +78,8 @@ std::vector<cl::Device> all_devices() {
 DeviceInfo device_info(const cl::Device &device) {
     DeviceInfo info;
     const std::vector<cl::Device> all = all_devices();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const cl::Device &d) { return d() == device(); });
+    const cl::Device root = root_of(device);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const cl::Device &d) { return d() == root(); });
     info.index = static_cast<std::uint32_t>(found - all.begin());
     const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
     info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
@@ -99,6 +117,22 @@ cl::Device choose_device(const std::string &wanted) {
     for (const cl::Device &device : devices)
         if (lower(device.getInfo<CL_DEVICE_NAME>()).find(lower(wanted)) != std::string::npos) return device;
     fail(Fault::NoDevice, "no device whose name holds \"", wanted, "\"; there are ", list_of(devices));
+}
+
+std::vector<cl::Device> choose_devices(const std::string &wanted, std::uint32_t sub_devices) {
+    std::vector<cl::Device> chosen;
+    for (std::size_t at = 0; at <= wanted.size();) {
+        const std::size_t end = std::min(wanted.find(',', at), wanted.size());
+        require(end > at || wanted.empty(), "device is \"", wanted,
+                "\"; between its commas there must be names or numbers");
+        chosen.push_back(choose_device(wanted.substr(at, end - at)));
+        at = end + 1;
+    }
+    if (sub_devices <= 1) return chosen;
+    std::vector<cl::Device> parts;
+    for (const cl::Device &device : chosen)
+        for (const cl::Device &part : parts_of(device, sub_devices)) parts.push_back(part);
+    return parts;
 }
 
 } // namespace smx

@@ -2,6 +2,13 @@
 
 namespace smx {
 
+namespace {
+
+// One size for all launches: PoCL compiles a kernel anew for every size of work-group.
+constexpr std::size_t default_work_group = 16;
+
+} // namespace
+
 void KernelTime::add(const cl::Event &event) {
     event.wait();
     try {
@@ -11,6 +18,17 @@ void KernelTime::add(const cl::Event &event) {
     } catch (const cl::Error &e) {
         if (e.err() != CL_PROFILING_INFO_NOT_AVAILABLE) throw;
     }
+}
+
+double launch(const Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
+              std::uint32_t work_group) {
+    const std::size_t group = work_group ? work_group : default_work_group;
+    cl::Event event;
+    device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(round_up(columns, group), rows),
+                                        cl::NDRange(group, 1), nullptr, &event);
+    KernelTime time;
+    time.add(event);
+    return time.seconds();
 }
 
 } // namespace smx

@@ -68,42 +68,38 @@ double mean_radius(const std::vector<Wave> &waves) {
     return 1.0 / (1.0 + 3.0 * std::sqrt(variance));
 }
 
-} // namespace
-
-Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions &options) {
-    validate(scene);
-    const Context::Lock lock(context);
-    const CallTimer timer(context);
-    Rendered result{Image(scene.width, scene.height), {}};
-    report_progress(options, 0.0);
-
-    std::vector<Wave> waves = relief_waves(scene.displacement);
+RenderRows start_geometry(Context &device, std::vector<Wave> waves, const Scene &scene, const RenderOptions &options,
+                          std::uint32_t most_rows) {
     const auto count = static_cast<cl_int>(waves.size());
     const auto radius = static_cast<cl_float>(mean_radius(waves));
     if (waves.empty()) waves.push_back({}); // a buffer cannot be empty
-    const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene)),
-                     wave_buffer = buffer_from(context, waves);
-    cl::Kernel kernel = context.kernel("draw_geometry.cl", "draw_geometry");
+    const cl::Buffer rgba = empty_buffer<cl_float4>(device, std::size_t{most_rows} * scene.width),
+                     wave_buffer = buffer_from(device, waves);
+    cl::Kernel kernel = device.kernel("draw_geometry.cl", "draw_geometry");
     kernel.setArg(0, rgba);
     kernel.setArg(1, static_cast<cl_int>(scene.width));
     kernel.setArg(2, static_cast<cl_int>(scene.height));
     kernel.setArg(4, wave_buffer);
     kernel.setArg(5, count);
     kernel.setArg(6, radius);
+    return [&device, &scene, &options, rgba, kernel, kept = wave_buffer](const Tile &tile, const TileRows &to,
+                                                                         const Step &) mutable {
+        kernel.setArg(3, static_cast<cl_int>(tile.first_row));
+        const double seconds = launch(device, kernel, scene.width, tile.rows, options.tiling.work_group);
+        read_rows(device, rgba, std::size_t{tile.rows} * scene.width, to.rgba);
+        return seconds;
+    };
+}
 
-    KernelTime time;
-    for (const Band &band : bands(scene)) {
-        kernel.setArg(3, static_cast<cl_int>(band.first_row));
-        cl::Event event;
-        context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(scene.width, band.rows), cl::NullRange,
-                                             nullptr, &event);
-        time.add(event);
-        read_band(context, rgba, band, result.image);
-        report_progress(options, static_cast<double>(band.first_row + band.rows) / scene.height);
-    }
-    describe(result.image, "geometry", scene);
-    result.report = timer.finish(context, time.seconds(), sphere_pixels(scene));
-    return result;
+} // namespace
+
+Rendered draw_geometry(Context &context, const Scene &scene, const RenderOptions &options) {
+    validate(scene);
+    const std::vector<Wave> waves = relief_waves(scene.displacement);
+    return render_once(context, scene, options, describe("geometry", scene),
+                       [&](Context &device, std::uint32_t most_rows) -> RenderRows {
+                           return start_geometry(device, waves, scene, options, most_rows);
+                       });
 }
 
 } // namespace smx

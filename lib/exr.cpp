@@ -1,10 +1,8 @@
 // EXR files, by OpenEXR.
-#include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
@@ -15,6 +13,8 @@
 
 #include "atomic_file.h"
 #include "error.h"
+#include "exr_rows.h"
+#include "exr_writer.h"
 #include "image.h"
 #include "scene.h"
 
@@ -22,23 +22,15 @@ namespace smx {
 
 namespace {
 
-constexpr const char *channels[] = {"R", "G", "B", "A"};
-
-// The image's rows as OpenEXR sees them; (x, y) is the data window's first pixel.
-Imf::FrameBuffer frame_buffer(float *rgba, std::size_t width, std::ptrdiff_t x, std::ptrdiff_t y) {
-    const std::size_t pixel = 4 * sizeof(float), row = width * pixel;
-    char *origin =
-        reinterpret_cast<char *>(rgba) - x * static_cast<std::ptrdiff_t>(pixel) - y * static_cast<std::ptrdiff_t>(row);
-    Imf::FrameBuffer buffer;
-    for (std::size_t c = 0; c < 4; ++c)
-        buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, origin + c * sizeof(float), pixel, row, 1, 1, c == 3));
-    return buffer;
+bool has_errors(const Imf::Header &header) {
+    return std::all_of(error_channels.begin(), error_channels.end(),
+                       [&](const char *name) { return !name || header.channels().findChannel(name); });
 }
 
 void expect_rgb(const Imf::Header &header, const std::string &path) {
     for (std::size_t c = 0; c < 3; ++c)
-        if (!header.channels().findChannel(channels[c]))
-            fail(Fault::BadFormat, path, ": no channel ", channels[c], "; an image needs R, G and B");
+        if (!header.channels().findChannel(image_channels[c]))
+            fail(Fault::BadFormat, path, ": no channel ", image_channels[c], "; an image needs R, G and B");
 }
 
 Image read_pixels(const std::string &path) {
@@ -51,8 +43,15 @@ Image read_pixels(const std::string &path) {
         fail(Fault::BadFormat, path, ": ", width, " x ", height, " pixels; sides must be 1..", max_side);
 
     Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-    file.setFrameBuffer(frame_buffer(image.rgba.data(), image.width, window.min.x, window.min.y));
+    Imf::FrameBuffer buffer;
+    insert_rows(buffer, image_channels, image.rgba.data(), image.width, window.min.x, window.min.y);
+    if (has_errors(file.header())) {
+        image.errors.resize(image.rgba.size());
+        insert_rows(buffer, error_channels, image.errors.data(), image.width, window.min.x, window.min.y);
+    }
+    file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
+    for (std::size_t at = 3; at < image.errors.size(); at += 4) image.errors[at] = image.rgba[at];
     for (auto at = file.header().begin(); at != file.header().end(); ++at)
         if (const auto *value = dynamic_cast<const Imf::StringAttribute *>(&at.attribute()))
             image.attributes[at.name()] = value->value();
@@ -86,14 +85,9 @@ Image read_exr(const std::string &path) {
 }
 
 void write_exr(const Image &image, const std::string &path) {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
-    for (const char *name : channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    for (const auto &[key, value] : image.attributes) header.insert(key, Imf::StringAttribute(value));
     write_atomically(path, [&](const std::string &temporary) {
-        Imf::OutputFile file(temporary.c_str(), header);
-        // OpenEXR only reads from the buffer, but takes it as not const.
-        file.setFrameBuffer(frame_buffer(const_cast<float *>(image.rgba.data()), image.width, 0, 0));
-        file.writePixels(static_cast<int>(image.height));
+        ExrWriter(temporary, image.width, image.height, image.attributes, !image.errors.empty())
+            .write(image.rgba.data(), image.errors.data(), image.height);
     });
 }
 

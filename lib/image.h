@@ -10,14 +10,16 @@ namespace smx {
 
 struct Image {
     std::uint32_t width = 0, height = 0;
-    std::vector<float> rgba; // [height][width][4]; alpha 1 on the surface, 0 off it
+    std::vector<float> rgba;   // [height][width][4]; alpha 1 on the surface, 0 off it
+    std::vector<float> errors; // standard errors of R, G, B and the pixel's alpha, [height][width][4]; or empty
     std::map<std::string, std::string> attributes;
 
     Image(std::uint32_t width, std::uint32_t height);
     std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
 };
 
-// EXR: R, G, B, A as float32, scan lines. read_exr takes any EXR with R, G and B; alpha is 1 where there is no A.
+// EXR: R, G, B, A as float32, scan lines, and error.R, error.G, error.B for an image with standard errors. read_exr
+// takes any EXR with R, G and B; alpha is 1 where there is no A, and there are errors where all three are.
 Image read_exr(const std::string &path);
 void write_exr(const Image &image, const std::string &path);
 

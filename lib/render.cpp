@@ -1,9 +1,9 @@
 #include "render.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <utility>
 
 #include "error.h"
 
@@ -11,28 +11,39 @@ namespace smx {
 
 namespace {
 
-// Pixels of a band: enough to keep a device busy, 16 MB of sums in the reference.
-constexpr std::uint32_t target_band_pixels = 1u << 18;
-
-std::uint32_t band_rows(const Scene &s) { return std::clamp(target_band_pixels / s.width, 1u, s.height); }
-
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 } // namespace
 
-std::vector<Band> bands(const Scene &s) {
-    std::vector<Band> all;
-    for (std::uint32_t row = 0; row < s.height; row += band_rows(s))
-        all.push_back({row, std::min(band_rows(s), s.height - row)});
-    return all;
+double render_tiles(Context &context, const Scene &scene, const RenderOptions &options, Canvas &canvas,
+                    const StartRows &start) {
+    TileJob job;
+    job.tiles = tiles_of(scene.height, scene.width, context.device_count(), options.tiling);
+    job.start = [&](Context &device) -> TileWork {
+        return [&canvas, render = start(device, most_rows(job.tiles))](const Tile &tile, const Step &step) {
+            return render(tile, canvas.rows(tile), step);
+        };
+    };
+    job.take = [&](const Tile &tile) { canvas.take(tile); };
+    job.progress = options.progress;
+    job.ahead = canvas.ahead(context.device_count());
+    return run_tiles(context, job);
 }
 
-std::size_t band_pixels(const Scene &s) { return std::size_t{band_rows(s)} * s.width; }
+Rendered render_once(Context &context, const Scene &scene, const RenderOptions &options, const Attributes &attributes,
+                     const StartRows &start) {
+    const Context::Lock lock(context);
+    const CallTimer timer(context);
+    const auto canvas = make_canvas(scene.width, scene.height, false, options.exr_path);
+    report_progress(options, 0.0);
+    canvas->begin(attributes);
+    const double kernel_seconds = render_tiles(context, scene, options, *canvas, start);
+    std::optional<Image> image = canvas->finish(attributes);
+    return {std::move(image), timer.finish(context, kernel_seconds, sphere_pixels(scene))};
+}
 
-void read_band(const Context &context, const cl::Buffer &rgba, const Band &band, Image &image) {
-    const std::size_t row = 4 * std::size_t{image.width};
-    context.queue().enqueueReadBuffer(rgba, CL_TRUE, 0, band.rows * row * sizeof(float),
-                                      image.rgba.data() + band.first_row * row);
+void read_rows(const Context &device, const cl::Buffer &from, std::size_t pixels, float *to) {
+    device.queue().enqueueReadBuffer(from, CL_TRUE, 0, pixels * sizeof(cl_float4), to);
 }
 
 void report_progress(const RenderOptions &options, double share) {
@@ -56,8 +67,8 @@ std::string number_text(double value) {
     return {digits.data(), end};
 }
 
-void describe(Image &image, const std::string &integrator, const Scene &s) {
-    auto &a = image.attributes;
+Attributes describe(const std::string &integrator, const Scene &s) {
+    Attributes a;
     a["slopemix.version"] = SMX_LIBRARY_VERSION;
     a["slopemix.integrator"] = integrator;
     a["slopemix.light_phi"] = number_text(s.light_phi);
@@ -67,6 +78,7 @@ void describe(Image &image, const std::string &integrator, const Scene &s) {
     a["slopemix.mean_slope_x"] = number_text(s.displacement.mean_slope_x);
     a["slopemix.mean_slope_y"] = number_text(s.displacement.mean_slope_y);
     a["slopemix.g"] = s.masking == Masking::Separable ? "separable" : "correlated";
+    return a;
 }
 
 } // namespace smx

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 
+#include "canvas.h"
 #include "context.h"
 #include "grade.h"
 #include "image.h"
 #include "scene.h"
+#include "tile_queue.h"
 
 namespace smx {
 
@@ -15,11 +19,15 @@ enum class Sampler { Grid = 0, Sobol = 1, Mis = 2 };
 enum class Lookup { Linear = 0, Nearest = 1 };
 
 struct RenderOptions {
-    Sampler sampler = Sampler::Grid;
+    Sampler sampler = Sampler::Mis;
     std::uint32_t spp = 65536;
     std::uint64_t seed = 0;
     Lookup lookup = Lookup::Linear;
     double target_error = 0.0; // 0: spp samples; else as many as bring the standard error of the image below it
+    bool errors = false;       // the reference's image carries its standard errors
+    bool whole_table = false;  // the reference looks the table up in whole, not cut at the image's theta_d
+    std::string exr_path;      // not empty: the image goes there as it comes, and none is returned
+    Tiling tiling;
     std::function<bool(double share)> progress; // returns true to stop
     Grade grade = Grade::Precise;
 };
@@ -32,21 +40,23 @@ struct RenderReport {
 };
 
 struct Rendered {
-    Image image;
+    std::optional<Image> image;
     RenderReport report;
 };
 
-// The image is rendered in bands of whole rows, so that device memory is bounded whatever its size.
-struct Band {
-    std::uint32_t first_row, rows;
-};
-std::vector<Band> bands(const Scene &scene);
+// Renders an image's tiles on all devices of a context: start(device, most rows of a tile) makes what one device does
+// with a tile whose rows belong at `to`. Returns the seconds of the busiest device.
+using RenderRows = std::function<double(const Tile &, const TileRows &to, const Step &)>;
+using StartRows = std::function<RenderRows(Context &device, std::uint32_t most_rows)>;
+double render_tiles(Context &context, const Scene &scene, const RenderOptions &options, Canvas &canvas,
+                    const StartRows &start);
 
-// Pixels of the largest band.
-std::size_t band_pixels(const Scene &scene);
+// One evaluation per pixel, and nothing more to it: the whole of the filtered and the geometric integrator.
+Rendered render_once(Context &context, const Scene &scene, const RenderOptions &options, const Attributes &attributes,
+                     const StartRows &start);
 
-// Reads a finished band from the device into its rows of the image.
-void read_band(const Context &context, const cl::Buffer &rgba, const Band &band, Image &image);
+// Reads finished rows from the device.
+void read_rows(const Context &device, const cl::Buffer &from, std::size_t pixels, float *to);
 
 // Tells the caller how far the work is. Throws Cancelled when it is to stop.
 void report_progress(const RenderOptions &options, double share);
@@ -62,7 +72,7 @@ class CallTimer {
 };
 
 // The scene and integrator as "slopemix.*" attributes; numbers in the shortest form that reads back the same.
-void describe(Image &image, const std::string &integrator, const Scene &scene);
+Attributes describe(const std::string &integrator, const Scene &scene);
 std::string number_text(double value);
 
 } // namespace smx

@@ -44,6 +44,10 @@ void validate(const RenderOptions &o) {
             "; it must be at least 0 and below 1");
     require(o.target_error == 0.0 || o.sampler != Sampler::Grid,
             "target_error needs the sampler sobol or mis: a grid has no estimate of its error");
+    require(!o.errors || o.sampler != Sampler::Grid,
+            "errors need the sampler sobol or mis: a grid has no estimate of its error");
+    require(!o.errors || o.target_error > 0.0 || o.spp % (2 * scramble_count) == 0, "spp is ", o.spp,
+            "; errors need a multiple of ", 2 * scramble_count);
 }
 
 SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {

@@ -31,12 +31,16 @@ void validate(const Displacement &x) {
     validate_mean("mean_slope_y", x.mean_slope_y);
 }
 
+void validate(Masking masking) {
+    require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
+            "; it must be 0 or 1");
+}
+
 void validate(const Scene &s) {
     require(s.width >= 1 && s.width <= max_side, "width is ", s.width, "; it must be 1..", max_side);
     require(s.height >= 1 && s.height <= max_side, "height is ", s.height, "; it must be 1..", max_side);
     require(std::isfinite(s.light_phi), "light_phi is ", s.light_phi, "; it must be finite");
-    require(s.masking == Masking::Correlated || s.masking == Masking::Separable, "masking is ",
-            static_cast<int>(s.masking), "; it must be 0 or 1");
+    validate(s.masking);
     validate(s.displacement);
 }
 

@@ -25,6 +25,7 @@ constexpr std::uint32_t max_side = 16384;
 
 // Throw InvalidArgument, naming value and range.
 void validate(const Displacement &displacement);
+void validate(Masking masking);
 void validate(const Scene &scene);
 
 // As in cl/displacement.clh; Real is float, or double in the grade of that name (grade.h).

@@ -1,5 +1,6 @@
 #include "shade_filtered.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -77,45 +78,47 @@ std::vector<float> packed_knots(const Material &material) {
 
 } // namespace
 
-Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
-    validate(scene);
-    validate(options.grade, context);
-    const Context::Lock lock(context);
-    const CallTimer timer(context);
-    Rendered result{Image(scene.width, scene.height), {}};
-    report_progress(options, 0.0);
+namespace {
 
+// What one device does with a tile of the sphere.
+RenderRows start_sphere(Context &device, const Material &material, const Scene &scene, const RenderOptions &options,
+                        std::uint32_t most_rows) {
     const Grade grade = options.grade;
-    const cl::Buffer fresnel = fresnel_at_angle(context, material, theta_d(scene), grade);
-    const cl::Buffer rgba = empty_buffer<cl_float4>(context, band_pixels(scene));
-    const cl::Buffer lobes = lobe_buffer(context, material, scene.displacement, grade);
+    const cl::Buffer fresnel = fresnel_at_angle(device, material, theta_d(scene), grade);
+    const cl::Buffer rgba = empty_buffer<cl_float4>(device, std::size_t{most_rows} * scene.width);
+    const cl::Buffer lobes = lobe_buffer(device, material, scene.displacement, grade);
     cl::Kernel kernel =
-        context.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking, grade));
+        device.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking, grade));
     kernel.setArg(0, rgba);
     set_arg(kernel, 1, scene, grade);
     set_arg(kernel, 3, scene.displacement, grade);
     kernel.setArg(4, lobes);
     kernel.setArg(5, static_cast<cl_int>(material.lobes.size()));
     kernel.setArg(6, fresnel);
+    const std::size_t columns = round_up(scene.width, device.width()) / device.width();
+    // A kernel does not keep its buffers alive.
+    return [&device, &scene, &options, rgba, kernel, columns, kept = std::array{fresnel, lobes}](
+               const Tile &tile, const TileRows &to, const Step &) mutable {
+        kernel.setArg(2, static_cast<cl_int>(tile.first_row));
+        const double seconds = launch(device, kernel, columns, tile.rows, options.tiling.work_group);
+        read_rows(device, rgba, std::size_t{tile.rows} * scene.width, to.rgba);
+        return seconds;
+    };
+}
 
-    KernelTime time;
-    for (const Band &band : bands(scene)) {
-        kernel.setArg(2, static_cast<cl_int>(band.first_row));
-        cl::Event event;
-        const std::size_t columns = round_up(scene.width, context.width()) / context.width();
-        context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(columns, band.rows), cl::NullRange,
-                                             nullptr, &event);
-        time.add(event);
-        read_band(context, rgba, band, result.image);
-        report_progress(options, static_cast<double>(band.first_row + band.rows) / scene.height);
-    }
-    describe(result.image, "filtered", scene);
-    result.image.attributes["slopemix.material"] = material.name;
-    result.image.attributes["slopemix.model"] = model_name(material.model);
-    result.image.attributes["slopemix.grade"] = grade_name(grade);
-    result.image.attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
-    result.report = timer.finish(context, time.seconds(), sphere_pixels(scene));
-    return result;
+} // namespace
+
+Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
+    validate(scene);
+    validate(options.grade, context);
+    Attributes attributes = describe("filtered", scene);
+    attributes["slopemix.material"] = material.name;
+    attributes["slopemix.model"] = model_name(material.model);
+    attributes["slopemix.grade"] = grade_name(options.grade);
+    attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
+    return render_once(context, scene, options, attributes, [&](Context &device, std::uint32_t most_rows) {
+        return start_sphere(device, material, scene, options, most_rows);
+    });
 }
 
 void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement, Masking masking,

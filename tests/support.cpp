@@ -156,6 +156,7 @@ smx_scene make_scene(uint32_t width, uint32_t height, double light_phi, const sm
 
 smx_render_options make_options(uint32_t spp, uint64_t seed, smx_lookup lookup) {
     smx_render_options o = SMX_RENDER_OPTIONS_INIT;
+    o.sampler = SMX_SAMPLER_GRID;
     o.spp = spp;
     o.seed = seed;
     o.lookup = lookup;

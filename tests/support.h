@@ -106,6 +106,7 @@ Pixels pixels(smx_image image);
 
 smx_scene make_scene(uint32_t width, uint32_t height, double light_phi, const smx_displacement &x,
                      smx_masking masking = SMX_G2_CORRELATED);
+// Of the grid.
 smx_render_options make_options(uint32_t spp, uint64_t seed = 0, smx_lookup lookup = SMX_LOOKUP_LINEAR);
 
 Image render_filtered(smx_material material, const smx_scene &scene, smx_context where = nullptr);

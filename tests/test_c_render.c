@@ -1,4 +1,4 @@
-/* smx_render_*, smx_material_eval and smx_brdf_eval with every bad argument. */
+/* smx_render_*, smx_material_eval, smx_brdf_eval and smx_brdf_integrate with every bad argument. */
 #include "c_objects.h"
 
 static smx_context context;
@@ -107,6 +107,7 @@ static void check_options(void) {
     bad = good;
     bad.spp = 0;
     INVALID("spp", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad.sampler = SMX_SAMPLER_GRID;
     bad.spp = 2;
     INVALID("square", render(REFERENCE, &scene, &bad, &image, NULL));
     bad.spp = 65535;
@@ -125,8 +126,20 @@ static void check_options(void) {
         INVALID("target_error", render(REFERENCE, &scene, &bad, &image, NULL));
     }
     bad = good;
+    bad.sampler = SMX_SAMPLER_GRID;
     bad.target_error = 0.01; /* the grid has no estimate to stop by */
     INVALID("target_error", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad.target_error = 0.0;
+    bad.errors = 1; /* nor one to keep */
+    INVALID("errors", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad.sampler = SMX_SAMPLER_SOBOL;
+    bad.spp = 1000;
+    INVALID("1000", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad = good;
+    bad.exr_path = "";
+    for (which = 0; which < RENDERERS; ++which) INVALID("exr_path", render(which, &scene, &bad, NULL, NULL));
+    bad.exr_path = "x.exr"; /* two places for one image */
+    for (which = 0; which < RENDERERS; ++which) INVALID("image", render(which, &scene, &bad, &image, NULL));
     bad = good;
     bad.sampler = (smx_sampler)77;
     INVALID("sampler", render(REFERENCE, &scene, &bad, &image, NULL));
@@ -216,6 +229,51 @@ static void check_brdf_eval(void) {
     CHECK(f[0] > 0.0f && f[2] > 0.0f);
 }
 
+static void check_integrate(void) {
+    const smx_displacement x = {0.1, 0.1, 0.0, 0.0, 0.0};
+    const size_t sizes[] = WRONG_SIZES(smx_render_options);
+    smx_displacement bad = x;
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    smx_render_report report = SMX_RENDER_REPORT_INIT;
+    const float up[3] = {0.0f, 0.0f, 1.0f};
+    float f[3] = {-7.0f, -7.0f, -7.0f}, e[3] = {-7.0f, -7.0f, -7.0f};
+    const smx_masking g = SMX_G2_CORRELATED;
+    int calls = 0;
+    size_t k;
+    INVALID("context", smx_brdf_integrate(NULL, brdf, &x, g, NULL, 1, up, up, f, e, NULL));
+    INVALID("brdf", smx_brdf_integrate(context, NULL, &x, g, NULL, 1, up, up, f, e, NULL));
+    INVALID("displacement", smx_brdf_integrate(context, brdf, NULL, g, NULL, 1, up, up, f, e, NULL));
+    INVALID("wi", smx_brdf_integrate(context, brdf, &x, g, NULL, 1, NULL, up, f, e, NULL));
+    INVALID("wo", smx_brdf_integrate(context, brdf, &x, g, NULL, 1, up, NULL, f, e, NULL));
+    INVALID("fcos", smx_brdf_integrate(context, brdf, &x, g, NULL, 1, up, up, NULL, e, NULL));
+    INVALID("masking is 7", smx_brdf_integrate(context, brdf, &x, (smx_masking)7, NULL, 1, up, up, f, e, NULL));
+    INVALID("count", smx_brdf_integrate(context, brdf, &x, g, NULL, SIZE_MAX, up, up, f, e, NULL));
+    bad.rho = 1.0;
+    INVALID("rho", smx_brdf_integrate(context, brdf, &bad, g, NULL, 1, up, up, f, e, NULL));
+    for (k = 0; k < 5; ++k) {
+        options.size = sizes[k];
+        INVALID("size", smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, e, NULL));
+    }
+    options.size = sizeof options;
+    options.sampler = SMX_SAMPLER_GRID;
+    INVALID("errors", smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, e, NULL));
+    options.sampler = SMX_SAMPLER_SOBOL;
+    options.exr_path = "x.exr";
+    INVALID("x.exr", smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, e, NULL));
+    options.exr_path = NULL;
+    report.size = 0;
+    INVALID("report", smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, e, &report));
+    options.progress = stop;
+    options.progress_user = &calls;
+    FAILS(SMX_CANCELLED, "", smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, e, NULL));
+    CHECK(calls == 1);
+    options.progress = NULL;
+    OK(smx_brdf_integrate(context, brdf, &x, g, &options, 0, up, up, f, e, NULL));
+    for (k = 0; k < 3; ++k) CHECK(f[k] == -7.0f && e[k] == -7.0f);
+    OK(smx_brdf_integrate(context, brdf, &x, g, &options, 1, up, up, f, NULL, NULL));
+    CHECK(f[0] > 0.0f && f[2] > 0.0f);
+}
+
 /* Images and contexts live on when what made them is released. */
 static void check_release_order(void) {
     smx_scene scene = SMX_SCENE_INIT;
@@ -240,6 +298,7 @@ int main(void) {
     check_cancel();
     check_eval();
     check_brdf_eval();
+    check_integrate();
     check_release_order();
     smx_image_release(NULL);
     smx_material_release(material);

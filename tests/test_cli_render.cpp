@@ -75,8 +75,9 @@ TEST(CliRender, BothIntegratorsWriteImages) {
 // The same question through the API has the same bits.
 TEST(CliRender, ImageIsTheApis) {
     const test::TempDir dir;
-    ASSERT_CLI_OK(test::cli(test::with(reference(dir / "a.exr"), {"--seed", "5", "--g", "separable", "--rho", "0.5",
-                                                                  "--mean-slope", "0.1,-0.2", "--lookup", "nearest"})));
+    ASSERT_CLI_OK(test::cli(
+        test::with(reference(dir / "a.exr"), {"--seed", "5", "--g", "separable", "--rho", "0.5", "--mean-slope",
+                                              "0.1,-0.2", "--lookup", "nearest", "--sampler", "grid"})));
     test::Brdf brdf;
     ASSERT_SMX_OK(smx_brdf_open("builtin:conductor", brdf.out()));
     const smx_scene scene = test::make_scene(24, 16, 0.0, {0.25, 0.0, 0.5, 0.1, -0.2}, SMX_G2_SEPARABLE);

@@ -13,10 +13,7 @@
 namespace slopemix::cli {
 
 struct BudgetJob {
-    BudgetJob() {
-        flags.sampler = SMX_SAMPLER_MIS;
-        flags.target_error = 0.003;
-    }
+    BudgetJob() { flags.target_error = 0.003; }
 
     std::string input;
     std::vector<std::pair<double, double>> alphas = {{0.1, 0.1}, {0.25, 0.25}, {0.5, 0.5},

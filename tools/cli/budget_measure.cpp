@@ -32,7 +32,7 @@ class Budget {
   public:
     explicit Budget(const BudgetJob &job)
         : job_(job), progress_(references_per_view * static_cast<double>(job.alphas.size() * job.lights.size())) {
-        context_ = open_context(job.flags.device);
+        context_ = open_context(job.flags);
         measured_ = open_brdf(job.input);
         result_.device = info_of(context_).name;
         result_.material = info_of(measured_);

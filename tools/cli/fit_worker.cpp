@@ -31,7 +31,7 @@ bool is_stale(const fs::path &plot, const fs::path &material) {
 FitWorker::FitWorker(const FitJob &job, const FitTable &earlier) : job_(job), earlier_(earlier) {
     if (!job.plot) return;
     require_gnuplot();
-    context_ = open_context("");
+    context_ = open_context({});
 }
 
 Material FitWorker::load_if_up_to_date(const FitSource &source) const {

@@ -10,6 +10,7 @@ namespace slopemix::cli {
 namespace {
 
 constexpr CountRange spp_range = {1, 1u << 24};
+constexpr CountRange sub_devices_range = {1, 1u << 16};
 constexpr NumberRange target_error_range = {1e-6, 0.5};
 
 bool is_square(std::uint32_t value) {
@@ -59,8 +60,16 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
         ->type_name("E");
     const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
     add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
-    command.add_option("--device", flags.device, "OpenCL device: its number in `slopemix info`, or part of its name")
-        ->type_name("D");
+    command
+        .add_option("--device", flags.device,
+                    "OpenCL device: its number in `slopemix info`, or part of its name; several work together")
+        ->type_name("D[,D...]");
+    const auto parse_parts = [](const std::string &text) {
+        return static_cast<std::uint32_t>(parse_count(text, sub_devices_range));
+    };
+    add_parsed(command, "--sub-devices", flags.sub_devices, parse_parts,
+               "Cut each device into N like sub-devices, which work together (default 1)")
+        ->type_name("N");
 }
 
 void add_render_flags(CLI::App &command, RenderFlags &flags) {
@@ -68,6 +77,8 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
     add_choice(command, "--g", flags.masking, maskings,
                "Masking and shadowing, height-correlated or separable (default correlated)");
+    add_choice(command, "--grade", flags.grade, grades,
+               "Arithmetic: float to about 1e-4, float to its precision, or double for checking (default precise)");
 }
 
 std::string sampling_text(const RenderFlags &flags) {
@@ -87,6 +98,14 @@ void require_legal_sampling(const RenderFlags &flags) {
     if (flags.sampler == SMX_SAMPLER_GRID && !is_square(flags.spp))
         refuse("a square such as 4096 or 65536, which the grid needs");
     if (flags.sampler == SMX_SAMPLER_MIS && flags.spp % 2 != 0) refuse("even, which mis needs");
+}
+
+void require_estimate(const RenderFlags &flags) {
+    if (flags.sampler == SMX_SAMPLER_GRID)
+        throw CLI::ValidationError("--errors", "the grid has no estimate of its error; use sobol or mis");
+    if (flags.target_error == 0.0 && flags.spp % 16 != 0)
+        throw CLI::ValidationError("--spp",
+                                   "'" + std::to_string(flags.spp) + "' is not a multiple of 16, which --errors needs");
 }
 
 } // namespace slopemix::cli

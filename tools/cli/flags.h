@@ -20,6 +20,8 @@ inline constexpr Choice<smx_model> models[] = {{"shared", SMX_MODEL_SHARED}, {"p
 inline constexpr Choice<smx_sampler> samplers[] = {
     {"grid", SMX_SAMPLER_GRID}, {"sobol", SMX_SAMPLER_SOBOL}, {"mis", SMX_SAMPLER_MIS}};
 inline constexpr Choice<smx_lookup> lookups[] = {{"linear", SMX_LOOKUP_LINEAR}, {"nearest", SMX_LOOKUP_NEAREST}};
+inline constexpr Choice<smx_grade> grades[] = {
+    {"fast", SMX_GRADE_FAST}, {"precise", SMX_GRADE_PRECISE}, {"double", SMX_GRADE_DOUBLE}};
 inline constexpr Choice<smx_masking> maskings[] = {{"correlated", SMX_G2_CORRELATED}, {"separable", SMX_G2_SEPARABLE}};
 
 // Adds an option that stores parse(text); what parse refuses is wrong usage. `target` must outlive the parsing.
@@ -74,12 +76,14 @@ std::string options_text(const FitFlags &flags);
 struct RenderFlags {
     Resolution resolution = {128, 128};
     std::uint32_t spp = 65536;
-    smx_sampler sampler = SMX_SAMPLER_GRID;
+    smx_sampler sampler = SMX_SAMPLER_MIS;
     double target_error = 0.0; // 0: spp samples
     std::uint64_t seed = 0;
     smx_lookup lookup = SMX_LOOKUP_LINEAR;
     smx_masking masking = SMX_G2_CORRELATED;
+    smx_grade grade = SMX_GRADE_PRECISE;
     std::string device; // empty: the library's choice
+    std::uint32_t sub_devices = 0;
 };
 
 // Resolution, samples, seed and device; their help names the values in `flags` as the defaults.
@@ -90,6 +94,9 @@ void add_render_flags(CLI::App &command, RenderFlags &flags);
 
 // How a reference is sampled: "4096 samples per pixel" or "standard error 0.01".
 std::string sampling_text(const RenderFlags &flags);
+
+// Throws CLI::ValidationError if the samples give no estimate of the error.
+void require_estimate(const RenderFlags &flags);
 
 // Throws CLI::ValidationError if the sampler cannot take this number of samples, or has no error to reach.
 void require_legal_sampling(const RenderFlags &flags);

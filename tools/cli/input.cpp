@@ -30,9 +30,10 @@ std::string name_of(const std::string &input) {
     return name;
 }
 
-Context open_context(const std::string &device) {
+Context open_context(const RenderFlags &flags) {
     smx_context_options options = SMX_CONTEXT_OPTIONS_INIT;
-    if (!device.empty()) options.device = device.c_str();
+    if (!flags.device.empty()) options.device = flags.device.c_str();
+    options.sub_devices = flags.sub_devices;
     return acquire<Context>(smx_context_create, &options);
 }
 

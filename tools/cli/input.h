@@ -22,7 +22,7 @@ inline constexpr const char *synthetic_help =
     "builtin:two-layer, builtin:conductor, analytic:beckmann,alpha=A,f0=F, analytic:ggx,alpha=A,f0=F,\n"
     "analytic:blinn-phong,exponent=E,f0=F or analytic:lambert,albedo=F; F is one number or r/g/b";
 
-Context open_context(const std::string &device);
+Context open_context(const RenderFlags &flags);
 Brdf open_brdf(const std::string &input);
 Density invert(const Brdf &brdf);
 Material fit(const Density &density, const FitFlags &flags);

@@ -74,6 +74,8 @@ fs::path StagedFiles::write(const fs::path &file, const std::function<void(const
     files_.push_back({temporary, file});
     try {
         write(temporary);
+    } catch (const Cancelled &) {
+        throw;
     } catch (const CommandError &error) {
         throw CommandError(replace_all(error.what(), temporary.string(), file.string()));
     }

@@ -33,6 +33,7 @@ void require_legal_usage(const RenderJob &job) {
         throw CLI::ValidationError("INPUT",
                                    "the reference needs a measured table, and '" + job.input + "' is a material file");
     require_legal_sampling(job.flags);
+    if (job.errors) require_estimate(job.flags);
 }
 
 // A flag of the other integrator is no error, so that one set of flags serves both; but it is said.
@@ -45,7 +46,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
     if (job.is_reference())
         for (const char *flag : {"--lobes", "--model"}) note(flag);
     else
-        for (const char *flag : {"--spp", "--target-error", "--sampler", "--seed", "--lookup"}) note(flag);
+        for (const char *flag : {"--spp", "--target-error", "--sampler", "--seed", "--lookup", "--errors"}) note(flag);
 }
 
 Material load_material(const RenderJob &job) {
@@ -61,58 +62,71 @@ Material load_material(const RenderJob &job) {
 }
 
 Rendered render_filtered(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
-    const Context context = open_context(job.flags.device);
+    const Context context = open_context(job.flags);
     const Material material =
         is_material_file(job.input) ? load_material(job) : fit(invert(open_brdf(job.input)), job.fit);
     const smx_material_info info = info_of(material);
+    const smx_device_info device = info_of(context);
     return {render_filtered(context, material, view, options),
             info.name,
             info.model,
             info.lobes,
-            info_of(context).name,
-            1.0};
+            device.name,
+            device.devices};
 }
 
 Rendered render_reference(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
-    const Context context = open_context(job.flags.device);
+    const Context context = open_context(job.flags);
     const Brdf brdf = open_brdf(job.input);
+    const smx_device_info device = info_of(context);
     return {render_reference(context, brdf, view, options),
             info_of(brdf).name,
             SMX_MODEL_SHARED,
             0,
-            info_of(context).name,
-            1.0};
+            device.name,
+            device.devices};
 }
 
-Rendered render(const RenderJob &job) {
+// Into memory, or where there is a path, straight into that file.
+Rendered render(const RenderJob &job, const char *exr_path) {
     const smx_scene view = scene(job.flags, job.displacement(), job.light_degrees);
     smx_render_options options = render_options(job.flags);
+    options.errors = job.errors;
+    options.exr_path = exr_path;
     Progress progress(1.0);
     progress.attach(options);
 
     progress.start("rendering " + name_of(job.input), 1.0);
     Rendered rendered = job.is_reference() ? render_reference(job, view, options) : render_filtered(job, view, options);
     progress.finish();
-    rendered.exposure = exposure_for(bright_value(rendered.rendering.image));
     return rendered;
 }
 
-void write(const RenderJob &job, const Rendered &rendered) {
+Rendered render_in_memory(const RenderJob &job, StagedFiles &files) {
+    Rendered rendered = render(job, nullptr);
     const smx_image image = rendered.rendering.image.get();
-    StagedFiles files;
     files.write(job.out, [&](const auto &file) { check(smx_image_write_exr(image, file.c_str())); });
-    if (job.png)
+    if (job.png) {
+        rendered.exposure = exposure_for(bright_value(rendered.rendering.image));
         files.write(job.png_file(),
                     [&](const auto &file) { check(smx_image_write_png(image, file.c_str(), rendered.exposure)); });
-    files.commit();
+    }
+    return rendered;
+}
+
+Rendered render_into_file(const RenderJob &job, StagedFiles &files) {
+    Rendered rendered;
+    files.write(job.out, [&](const auto &file) { rendered = render(job, file.c_str()); });
+    return rendered;
 }
 
 void run(const RenderJob &job) {
     require_legal_usage(job);
     require_writable(job.out);
     if (job.png) require_writable(job.png_file());
-    const Rendered rendered = render(job);
-    write(job, rendered);
+    StagedFiles files;
+    const Rendered rendered = job.is_streamed() ? render_into_file(job, files) : render_in_memory(job, files);
+    files.commit();
     if (job.json)
         print_json(job, rendered);
     else
@@ -154,12 +168,16 @@ void add_render(CLI::App &app) {
     add_fit_flags(*command, job->fit);
     add_render_flags(*command, job->flags);
     command->add_option("--out", job->out, "The image to write")->required()->type_name("X.exr");
+    command->add_flag("--errors", job->errors,
+                      "Also write the reference's standard errors, as channels error.R, error.G, error.B");
     command->add_flag("--png", job->png, "Also write X.png: sRGB, the 99th percentile at 0.9");
     command->add_flag("--json", job->json, "Print JSON");
     command->footer(
-        "The flags of the reference (--spp, --target-error, --sampler, --seed, --lookup) have no effect on filtered\n"
-        "images, nor those of the fit (--lobes, --model) on the reference. A material file must hold what the latter\n"
-        "two ask for.");
+        "The flags of the reference (--spp, --target-error, --sampler, --seed, --lookup, --errors) have no effect on\n"
+        "filtered images, nor those of the fit (--lobes, --model) on the reference. A material file must hold what "
+        "the\n"
+        "latter two ask for. Images of more than 2048 x 2048 pixels are written as they come, without being held in\n"
+        "memory, unless --png asks for them.");
     command->callback([command, job] {
         job->lobes_given = command->count("--lobes") > 0;
         job->model_given = command->count("--model") > 0;

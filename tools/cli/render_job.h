@@ -22,6 +22,7 @@ struct RenderJob {
     FitFlags fit;
     bool lobes_given = false, model_given = false;
     RenderFlags flags;
+    bool errors = false;
     bool png = false;
     bool json = false;
 
@@ -29,16 +30,21 @@ struct RenderJob {
         return {alpha.first, alpha.second, rho, mean_slope.first, mean_slope.second};
     }
     bool is_reference() const { return integrator == Integrator::reference; }
+    // Too large to be held in memory, and not needed there.
+    bool is_streamed() const {
+        return !png && std::uint64_t{flags.resolution.width} * flags.resolution.height > 2048u * 2048u;
+    }
     std::filesystem::path png_file() const { return std::filesystem::path(out).replace_extension(".png"); }
 };
 
 struct Rendered {
     Rendering rendering;
-    std::string name;    // of the material
-    smx_model model;     // of the filter
-    std::uint32_t lobes; // of the filter
+    std::string name;                   // of the material
+    smx_model model = SMX_MODEL_SHARED; // of the filter
+    std::uint32_t lobes = 0;            // of the filter
     std::string device;
-    double exposure;
+    std::uint32_t devices = 1;
+    double exposure = 1.0; // of the PNG
 };
 
 void print_json(const RenderJob &job, const Rendered &rendered);

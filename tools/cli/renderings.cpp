@@ -7,10 +7,10 @@ namespace slopemix::cli {
 
 namespace {
 
-Rendering rendering(auto render, auto... arguments) {
-    smx_image image = nullptr;
+Rendering rendering(const smx_render_options &options, auto render, auto... arguments) {
+    smx_image image = nullptr; // and stays so where a file takes the image
     smx_render_report report = SMX_RENDER_REPORT_INIT;
-    check(render(arguments..., &image, &report));
+    check(render(arguments..., &options, options.exr_path ? nullptr : &image, &report));
     return {Image(image), report};
 }
 
@@ -23,6 +23,7 @@ smx_render_options render_options(const RenderFlags &flags) {
     options.target_error = flags.target_error;
     options.seed = flags.seed;
     options.lookup = flags.lookup;
+    options.grade = flags.grade;
     return options;
 }
 
@@ -38,16 +39,16 @@ smx_scene scene(const RenderFlags &flags, const smx_displacement &displacement, 
 
 Rendering render_filtered(const Context &context, const Material &material, const smx_scene &scene,
                           const smx_render_options &options) {
-    return rendering(smx_render_filtered, context.get(), material.get(), &scene, &options);
+    return rendering(options, smx_render_filtered, context.get(), material.get(), &scene);
 }
 
 Rendering render_reference(const Context &context, const Brdf &brdf, const smx_scene &scene,
                            const smx_render_options &options) {
-    return rendering(smx_render_reference, context.get(), brdf.get(), &scene, &options);
+    return rendering(options, smx_render_reference, context.get(), brdf.get(), &scene);
 }
 
 Rendering render_geometry(const Context &context, const smx_scene &scene, const smx_render_options &options) {
-    return rendering(smx_render_geometry, context.get(), &scene, &options);
+    return rendering(options, smx_render_geometry, context.get(), &scene);
 }
 
 double seconds_per_sample(double seconds, double build_seconds, std::uint64_t evaluations) {

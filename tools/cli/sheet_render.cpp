@@ -20,7 +20,7 @@ class SheetRenderer {
   public:
     SheetRenderer(const SheetJob &job, const SheetPlan &plan, StagedFiles &files)
         : job_(job), steps_(plan.steps()), files_(files), progress_(total_work()) {
-        context_ = open_context(job.flags.device);
+        context_ = open_context(job.flags);
         brdf_ = open_brdf(job.input);
         result_.device = info_of(context_).name;
         result_.material = info_of(brdf_);

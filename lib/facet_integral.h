@@ -1,0 +1,80 @@
+// The reference's integral on one device: launches of cl/draw_facets.cl and cl/integrate_reference.cl for tiles of the
+// sphere's pixels or of pairs of directions.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "material.h"
+#include "render.h"
+#include "sampling_plan.h"
+
+namespace smx {
+
+// Pairs of directions as planes, [3][stride], padded by a device's lanes (direction_pairs.h).
+struct PairPlanes {
+    std::size_t stride;
+    std::vector<float> wi, wo;
+};
+
+// What every device of an integration is told; made once. One of `scene` and `pairs` is there.
+struct IntegralTask {
+    const Scene *scene = nullptr;
+    const PairPlanes *pairs = nullptr;
+    Displacement displacement;
+    Masking masking = Masking::Correlated;
+    Lookup lookup = Lookup::Linear;
+    bool whole_table = false;
+    const std::vector<float> *table = nullptr;   // table_slice.h or table_whole.h
+    const std::vector<Lobe> *proposal = nullptr; // empty where nothing is drawn from it
+    SamplingPlan plan;
+    std::uint64_t seed = 0;
+    Grade grade = Grade::Precise;
+    Tiling tiling;
+    std::uint32_t row_items = 0; // pixels of a row; 1 for pairs
+};
+
+// Squares of values and of their standard errors, row by row: their sum does not depend on the tiling.
+class RowErrors {
+  public:
+    explicit RowErrors(std::size_t rows) : values2_(rows), errors2_(rows) {}
+    void set(std::size_t row, const float *rgba, const float *errors, std::size_t items);
+    double relative() const; // root mean square error over root mean square value; 0 where there is no error
+
+  private:
+    std::vector<double> values2_, errors2_;
+};
+
+class FacetIntegral {
+  public:
+    FacetIntegral(Context &device, const IntegralTask &task, std::uint32_t most_rows);
+
+    // Puts a tile's values into `to`, and their squares into `seen`. Returns the device's seconds.
+    double integrate(const Tile &tile, const TileRows &to, RowErrors &seen, const Step &step);
+
+  private:
+    struct PassKernels {
+        cl::Kernel draw, integrate;
+    };
+    cl::Kernel drawing_kernel(const Pass &pass);
+    cl::Kernel integrating_kernel(const Pass &pass, const Defines &defines);
+    void make_closing_kernels(Defines defines);
+    void run_pass(std::size_t index, std::uint32_t scramble, const Tile &tile,
+                  const std::function<void(std::uint32_t)> &done);
+    void finish(const Tile &tile);
+    void run(const cl::Kernel &kernel, std::size_t columns, std::size_t rows = 1);
+
+    Context &device_;
+    const IntegralTask &task_;
+    std::size_t most_items_;
+    std::uint32_t per_launch_, stride_;
+    cl::Buffer facets_, table_, lobes_, density_, sums_, rests_, means_, deviations_, rgba_, errors_, wi_, wo_;
+    std::vector<PassKernels> passes_;
+    cl::Kernel fold_, finish_;
+    std::vector<float> unkept_errors_;
+    double seconds_ = 0.0;
+};
+
+} // namespace smx
