@@ -7,21 +7,8 @@
 //   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
 #include "fresnel.clh"
 #include "mixture.clh"
+#include "rgb.clh"
 #include "sphere.clh"
-
-typedef struct {
-    realW r, g, b;
-} RgbW;
-
-inline RgbW scaled(RgbW colour, realW factor) {
-    RgbW out = {colour.r * factor, colour.g * factor, colour.b * factor};
-    return out;
-}
-
-inline RgbW add_coloured(RgbW sum, realW r, realW g, realW b, realW value) {
-    RgbW out = {fma(r, value, sum.r), fma(g, value, sum.g), fma(b, value, sum.b)};
-    return out;
-}
 
 // f cos_i where F is one number per curve and channel.
 inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constant const real4 *fresnel,
@@ -36,50 +23,6 @@ inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constan
         add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_value(lobes, count, e));
 #endif
     return scaled(sum, common_factor(e));
-}
-
-// All lanes of (r, g, b, a) side by side, joined in pairs and pairs of pairs; named by their number.
-inline void store_rgba1(__global float4 *out, float r, float g, float b, float a) { *out = (float4)(r, g, b, a); }
-
-inline void store_rgba4(__global float4 *out, float4 r, float4 g, float4 b, float4 a) {
-    float8 rg, ba;
-    rg.even = r, rg.odd = g, ba.even = b, ba.odd = a;
-    ulong8 rgba;
-    rgba.even = as_ulong4(rg), rgba.odd = as_ulong4(ba);
-    vstore8(rgba, 0, (__global ulong *)out);
-}
-
-inline void store_rgba8(__global float4 *out, float8 r, float8 g, float8 b, float8 a) {
-    float16 rg, ba;
-    rg.even = r, rg.odd = g, ba.even = b, ba.odd = a;
-    ulong16 rgba;
-    rgba.even = as_ulong8(rg), rgba.odd = as_ulong8(ba);
-    vstore16(rgba, 0, (__global ulong *)out);
-}
-
-inline void store_rgba16(__global float4 *out, float16 r, float16 g, float16 b, float16 a) {
-    store_rgba8(out, r.lo, g.lo, b.lo, a.lo);
-    store_rgba8(out + 8, r.hi, g.hi, b.hi, a.hi);
-}
-
-// The first `valid` lanes, where not all of them are.
-inline void store_rgba_tail(__global float4 *out, floatW red, floatW green, floatW blue, floatW alpha, int valid) {
-    float r[W], g[W], b[W], a[W];
-    vstoreW(red, 0, r);
-    vstoreW(green, 0, g);
-    vstoreW(blue, 0, b);
-    vstoreW(alpha, 0, a);
-    for (int lane = 0; lane < valid; ++lane) out[lane] = (float4)(r[lane], g[lane], b[lane], a[lane]);
-}
-
-// Writes lanes as RGBA, alpha 1 where inside, else 0; lanes at or past `valid` are not written.
-inline void store_rgba(__global float4 *out, RgbW value, intW inside, int valid) {
-    floatW r = to_floatW(value.r), g = to_floatW(value.g), b = to_floatW(value.b);
-    floatW a = to_floatW(selectW((realW)0.0f, (realW)1.0f, inside));
-    if (valid >= W)
-        SMX_JOIN(store_rgba, W)(out, r, g, b, a);
-    else
-        store_rgba_tail(out, r, g, b, a, valid);
 }
 
 // The sphere of the experiment: work-item (c, r) shades pixels W c ... W c + W - 1 of row first_row + r. wi, wo and so

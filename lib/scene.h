@@ -1,7 +1,9 @@
 // The displaced surface and the experiment's sphere, as the host knows them, and their structs on the device.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 
 namespace smx {
 
@@ -64,5 +66,11 @@ double theta_d(const Scene &scene);
 // Pixels whose centre lies on the sphere; of them, those that are turned towards the light.
 std::uint64_t sphere_pixels(const Scene &scene);
 std::uint64_t lit_pixels(const Scene &scene);
+
+// wi and wo of a pixel in its frame (e_theta, e_phi, normal).
+struct LocalDirections {
+    std::array<double, 3> wi, wo;
+};
+void visit_lit_pixels(const Scene &scene, const std::function<void(const LocalDirections &)> &visit);
 
 } // namespace smx
