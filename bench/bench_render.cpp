@@ -1,5 +1,6 @@
-// Nanoseconds per evaluation of the kernels, from OpenCL's events: filtered shading by number of lobes, and the
-// reference per sample. Every row's time is of one evaluation on the whole device, not of the call.
+// Nanoseconds per sample of the reference on the whole device, from OpenCL's events, not of the call.
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "bench.h"
@@ -11,22 +12,6 @@ smx_scene bench_scene(uint32_t side) {
     scene.width = scene.height = side;
     scene.displacement = {0.25, 0.25, 0.0, 0.0, 0.0};
     return scene;
-}
-
-// `count` distinct lobes, alphas 0.01 to 1, under flat curves.
-smx_material make_lobes(smx_model model, size_t count) {
-    std::vector<smx_lobe> lobes;
-    for (size_t k = 0; k < count; ++k) lobes.push_back({1.0, 0.01 + 0.99 * static_cast<double>(k) / 16.0});
-    const std::vector<double> fresnel(6 * count, 1.0);
-    smx_material_desc desc = SMX_MATERIAL_DESC_INIT;
-    desc.model = model;
-    desc.lobes = lobes.data();
-    desc.lobe_count = count;
-    desc.knots = 2;
-    desc.fresnel = fresnel.data();
-    smx_material material = nullptr;
-    check(smx_material_create(&desc, &material));
-    return material;
 }
 
 // Runs `render` until the benchmark has enough, with the kernel's seconds per evaluation as its time.
@@ -47,38 +32,48 @@ void measure(benchmark::State &state, Render render) {
         benchmark::Counter(evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void shade(benchmark::State &state, smx_model model) {
-    const smx_scene scene = bench_scene(1024);
-    smx_material material = make_lobes(model, static_cast<size_t>(state.range(0)));
-    measure(state, [&](smx_image *image, smx_render_report *report) {
-        return smx_render_filtered(shared_context(), material, &scene, nullptr, image, report);
-    });
-    smx_material_release(material);
-}
-BENCHMARK_CAPTURE(shade, shared, SMX_MODEL_SHARED)
-    ->Name("shade.shared")
-    ->ArgName("n")
-    ->RangeMultiplier(2)
-    ->Range(1, 16)
-    ->UseManualTime();
-BENCHMARK_CAPTURE(shade, per_lobe, SMX_MODEL_PER_LOBE)
-    ->Name("shade.per-lobe")
-    ->ArgName("n")
-    ->RangeMultiplier(2)
-    ->Range(1, 16)
-    ->UseManualTime();
-
-void reference(benchmark::State &state, smx_sampler sampler) {
-    const smx_scene scene = bench_scene(128);
+smx_render_options reference_options(smx_sampler sampler) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
     options.sampler = sampler;
     options.spp = 4096;
+    return options;
+}
+
+void reference(benchmark::State &state, smx_sampler sampler, int whole_table) {
+    const smx_scene scene = bench_scene(128);
+    smx_render_options options = reference_options(sampler);
+    options.whole_table = whole_table;
     measure(state, [&](smx_image *image, smx_render_report *report) {
         return smx_render_reference(shared_context(), two_layer(), &scene, &options, image, report);
     });
 }
-BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID)->Name("reference.slice.grid")->UseManualTime();
-BENCHMARK_CAPTURE(reference, sobol, SMX_SAMPLER_SOBOL)->Name("reference.slice.sobol")->UseManualTime();
-BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS)->Name("reference.slice.mis")->UseManualTime();
+BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID, 0)->Name("reference.slice.grid")->UseManualTime();
+BENCHMARK_CAPTURE(reference, sobol, SMX_SAMPLER_SOBOL, 0)->Name("reference.slice.sobol")->UseManualTime();
+BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS, 0)->Name("reference.slice.mis")->UseManualTime();
+BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID, 1)->Name("reference.full.grid")->UseManualTime();
+BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS, 1)->Name("reference.full.mis")->UseManualTime();
+
+// Pairs of directions, all with another theta_d.
+void reference_pairs(benchmark::State &state, smx_sampler sampler) {
+    constexpr size_t count = 4096;
+    const smx_displacement x = {0.25, 0.25, 0.0, 0.0, 0.0};
+    const smx_render_options options = reference_options(sampler);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> cosine(0.1f, 1.0f), azimuth(0.0f, 6.2831853f);
+    std::vector<float> wi(3 * count), wo(3 * count), fcos(3 * count);
+    for (std::vector<float> *w : {&wi, &wo})
+        for (size_t k = 0; k < count; ++k) {
+            const float z = cosine(random), phi = azimuth(random), sine = std::sqrt(1.0f - z * z);
+            (*w)[k] = sine * std::cos(phi);
+            (*w)[count + k] = sine * std::sin(phi);
+            (*w)[2 * count + k] = z;
+        }
+    measure(state, [&](smx_image *, smx_render_report *report) {
+        return smx_brdf_integrate(shared_context(), two_layer(), &x, SMX_G2_CORRELATED, &options, count, wi.data(),
+                                  wo.data(), fcos.data(), nullptr, report);
+    });
+}
+BENCHMARK_CAPTURE(reference_pairs, grid, SMX_SAMPLER_GRID)->Name("reference.pairs.grid")->UseManualTime();
+BENCHMARK_CAPTURE(reference_pairs, mis, SMX_SAMPLER_MIS)->Name("reference.pairs.mis")->UseManualTime();
 
 } // namespace

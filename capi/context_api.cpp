@@ -64,6 +64,7 @@ smx_status smx_context_get_info(smx_context context, smx_device_info *info) {
         require_pointer(context, "context");
         check_output(info, "info");
         fill(*info, context->object->info());
+        info->build_seconds = context->object->build_seconds();
     });
 }
 }

@@ -89,10 +89,11 @@ typedef struct smx_device_info {
     uint32_t compute_units;
     uint64_t global_memory; /* bytes */
     uint32_t vector_width;  /* evaluations per work-item that slopemix uses on it: 1, 4, 8 or 16 */
+    double build_seconds;   /* of a context: what compiling kernels has taken so far, on the device that took longest */
     uint32_t devices;       /* of a context: how many work together; compute_units is their sum, all else the first's */
 } smx_device_info;
 #define SMX_DEVICE_INFO_INIT \
-    { sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0, 0 }
+    { sizeof(smx_device_info), 0, "", "", "", "", "", "", 0, 0, 0, 0.0, 0 }
 
 /* Number of OpenCL devices over all platforms; 0 is not an error.
  * Statuses: INVALID_ARGUMENT (count is null). */

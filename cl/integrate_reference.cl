@@ -122,7 +122,7 @@ __kernel void finish_sphere(__global float4 *rgba, __global float4 *errors, __gl
     SpherePoint s = sphere_point(&view, first_column + laneW, first_row + row);
     realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
     realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
-    realW factor = masking_factor(&x, ix, iy, iz, s.ty, s.by, s.ny, s.inside && (iz > (realW)0.0f));
+    realW factor = masking_factor(&x, ix, iy, iz, s.ox, s.oy, s.oz, s.inside && (iz > (realW)0.0f));
     store_results(rgba, errors, means, deviations, row * view.width + first_column, (row + 1) * view.width, factor,
                   s.inside, scrambles);
 }

@@ -37,7 +37,7 @@ __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int 
         SpherePoint s = sphere_point(&view, first_column + laneW, first_row + band_row);
         inside = s.inside;
         Evaluation e = evaluation(&x, SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y),
-                                  SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ty, s.by, s.ny,
+                                  SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ox, s.oy, s.oz,
                                   SPHERE_LOCAL_X(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y),
                                   SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
         if (anyW(e.visible)) fcos = fcos_at_one_angle(lobes, count, fresnel, &e);

@@ -9,6 +9,10 @@ namespace smx {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 std::uint32_t chosen_width(std::uint32_t wanted, std::uint32_t native) {
     require(wanted == 0 || wanted == 1 || wanted == 4 || wanted == 8 || wanted == 16, "vector_width is ", wanted,
             "; it must be 0 (the device's own), 1, 4, 8 or 16");
@@ -60,7 +64,7 @@ std::vector<Context *> Context::devices() {
 
 double Context::build_seconds() const {
     double longest = build_seconds_;
-    for (const auto &other : others_) longest = std::max(longest, other->build_seconds_);
+    for (const auto &other : others_) longest = std::max(longest, other->build_seconds());
     return longest;
 }
 
@@ -70,7 +74,7 @@ cl::Program Context::build(const std::string &file, const std::string &options) 
         text(options, '\n', info_.platform_version, '\n', info_.name, '\n', info_.driver, '\n', source);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
 
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     cl::Program program(context_, source);
     try {
         program.build({device_}, options.c_str());
@@ -79,7 +83,7 @@ cl::Program Context::build(const std::string &file, const std::string &options) 
         fail(Fault::KernelBuild, file, " does not build on ", info_.name, " (", opencl_error_name(e.err()),
              ") with options ", options, ":\n", log);
     }
-    build_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    build_seconds_ += seconds_since(start);
     return programs_.emplace(key, program).first->second;
 }
 
@@ -87,6 +91,12 @@ cl::Kernel Context::kernel(const std::string &file, const std::string &name, con
     Defines all = defines;
     all["W"] = static_cast<int>(width());
     return cl::Kernel(build(file, build_options(all)), name.c_str());
+}
+
+bool Context::is_first_launch(const cl::Kernel &kernel, std::size_t work_group) {
+    return launched_
+        .emplace(kernel.getInfo<CL_KERNEL_PROGRAM>()(), kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), work_group)
+        .second;
 }
 
 } // namespace smx

@@ -7,8 +7,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "device.h"
@@ -35,6 +37,11 @@ class Context {
     const cl::Context &cl() const { return context_; }
     const cl::CommandQueue &queue() const { return queue_; }
     double build_seconds() const; // of all builds so far, on the device that built longest
+
+    // A driver may compile a kernel as late as its first launch in a size of work-groups. launch() asks whether this is
+    // the first, and counts what it took beyond its run as build.
+    bool is_first_launch(const cl::Kernel &kernel, std::size_t work_group);
+    void add_build_seconds(double seconds) { build_seconds_ += seconds; }
 
     // The devices that work together, this one first. Each is one thread's at a time.
     std::vector<Context *> devices();
@@ -65,7 +72,8 @@ class Context {
     DeviceInfo info_;
     std::vector<std::unique_ptr<Context>> others_;
     std::map<std::string, cl::Program> programs_;
-    double build_seconds_ = 0.0;
+    std::set<std::tuple<cl_program, std::string, std::size_t>> launched_; // kernels and sizes of their work-groups
+    std::atomic<double> build_seconds_ = 0.0;
     std::mutex mutex_;
     std::atomic<std::thread::id> owner_{};
 };

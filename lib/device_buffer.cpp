@@ -1,5 +1,8 @@
 #include "device_buffer.h"
 
+#include <algorithm>
+#include <chrono>
+
 namespace smx {
 
 namespace {
@@ -20,14 +23,18 @@ void KernelTime::add(const cl::Event &event) {
     }
 }
 
-double launch(const Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
+double launch(Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
               std::uint32_t work_group) {
     const std::size_t group = work_group ? work_group : default_work_group;
+    const bool first = device.is_first_launch(kernel, group);
+    const auto start = std::chrono::steady_clock::now();
     cl::Event event;
     device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(round_up(columns, group), rows),
                                         cl::NDRange(group, 1), nullptr, &event);
     KernelTime time;
     time.add(event);
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (first && time.seconds() > 0.0) device.add_build_seconds(std::max(elapsed - time.seconds(), 0.0));
     return time.seconds();
 }
 

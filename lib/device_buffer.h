@@ -35,7 +35,7 @@ class KernelTime {
 
 // Launches a kernel on at least columns x rows work-items, in work-groups of work_group x 1, and waits for it;
 // work-items past the last column must do nothing. Returns the seconds that it took.
-double launch(const Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
+double launch(Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
               std::uint32_t work_group);
 
 } // namespace smx

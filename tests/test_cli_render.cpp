@@ -1,6 +1,10 @@
 // slopemix info, render and compare: images, their attributes, the devices and kernels that are not there.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "cli.h"
 #include "close.h"
 #include "files.h"
@@ -45,6 +49,8 @@ TEST(CliRender, InfoListsDevices) {
         defaults += device.at("default").get<bool>();
     }
     EXPECT_EQ(defaults, 1);
+    EXPECT_GT(info.at("build_seconds").get<double>(), 0.0);
+    EXPECT_GT(info.at("run_seconds").get<double>(), 0.0);
 }
 
 TEST(CliRender, BothIntegratorsWriteImages) {
@@ -95,6 +101,62 @@ TEST(CliRender, MaterialFilesRender) {
     test::write_file(dir / "bad.json", "{\"version\": 99}");
     EXPECT_CLI_FAILS(1, "bad.json", render("filtered", dir / "bad.json", dir / "x.exr"));
     EXPECT_FALSE(test::exists(dir / "x.exr"));
+}
+
+TEST(CliRender, ErrorsAreChannels) {
+    const test::TempDir dir;
+    ASSERT_CLI_OK(test::cli(reference(dir / "plain.exr")));
+    ASSERT_CLI_OK(test::cli(test::with(reference(dir / "errors.exr"), {"--errors"})));
+    const test::Image plain = read(dir / "plain.exr"), with = read(dir / "errors.exr");
+    EXPECT_EQ(smx_image_errors(plain), nullptr);
+    ASSERT_NE(smx_image_errors(with), nullptr);
+    EXPECT_EQ(test::relrmse(with, plain), 0.0);
+    const std::size_t middle = 4 * (8 * 24 + 16);
+    EXPECT_GT(smx_image_errors(with)[middle], 0.0f);
+    EXPECT_LT(smx_image_errors(with)[middle], smx_image_pixels(with)[middle]);
+    ASSERT_CLI_OK(test::cli({"compare", dir / "errors.exr", dir / "plain.exr"}));
+    EXPECT_CLI_FAILS(2, "--errors", test::with(reference(dir / "x.exr"), {"--errors", "--sampler", "grid"}));
+    EXPECT_CLI_FAILS(2, "16",
+                     test::with(render("reference", "builtin:conductor", dir / "x.exr"), {"--errors", "--spp", "100"}));
+    EXPECT_FALSE(test::exists(dir / "x.exr"));
+}
+
+TEST(CliRender, SubDevicesWorkTogether) {
+    const test::TempDir dir;
+    const test::CliResult one = test::cli(test::with(reference(dir / "one.exr"), {"--json"}));
+    ASSERT_CLI_OK(one);
+    EXPECT_EQ(one.json().at("devices"), 1);
+    const test::CliResult two = test::cli(test::with(reference(dir / "two.exr"), {"--json", "--sub-devices", "2"}));
+    ASSERT_CLI_OK(two);
+    EXPECT_EQ(two.json().at("devices"), 2);
+    EXPECT_EQ(test::read_file(dir / "one.exr"), test::read_file(dir / "two.exr"));
+    EXPECT_CLI_FAILS(1, "sub_devices is 9999", test::with(reference(dir / "x.exr"), {"--sub-devices", "9999"}));
+    EXPECT_CLI_FAILS(1, "no device 77", test::with(reference(dir / "x.exr"), {"--device", "0,77"}));
+}
+
+// Peak memory of the largest process that this one has waited for, in bytes.
+std::size_t peak_memory_of_children() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+// An image that takes more memory than the process.
+TEST(CliRender, LargeImagesAreStreamed) {
+    constexpr std::size_t side = 4096, image_bytes = side * side * 16;
+    const test::TempDir dir;
+    ASSERT_CLI_OK(test::cli({"fit", "builtin:conductor", "--out", dir.path(), "--lobes", "1", "--model", "shared"}));
+    Arguments arguments =
+        test::replaced(render("filtered", dir / "conductor.json", dir / "large.exr"), "--res", std::to_string(side));
+    ASSERT_CLI_OK(test::cli(arguments));
+    EXPECT_LT(peak_memory_of_children(), image_bytes);
+    EXPECT_EQ(test::pixels(read(dir / "large.exr")).width, side);
+
+    // A signal in the middle leaves nothing.
+    arguments.back() = dir / "cut.exr";
+    const test::CliSetting interrupted = {{}, 0, SIGINT, [&] { return dir.names().size() > 4; }};
+    EXPECT_NE(test::cli(arguments, interrupted).status, 0);
+    EXPECT_EQ(dir.names(), (Arguments{"conductor.json", "fits.csv", "fits.json", "large.exr"}));
 }
 
 TEST(CliRender, CompareReports) {

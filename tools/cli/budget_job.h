@@ -44,6 +44,7 @@ struct BudgetResult {
     std::vector<BudgetEntry> entries;
     std::optional<double> standard_error; // the largest of the references; without an estimate, nothing
     double seconds = 0.0;
+    double build_seconds = 0.0; // of these, compiling kernels
 };
 
 BudgetResult measure_budget(const BudgetJob &job);

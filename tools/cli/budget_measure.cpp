@@ -42,6 +42,7 @@ class Budget {
         fit_bases();
         for (std::size_t alpha = 0; alpha < job_.alphas.size(); ++alpha)
             for (std::size_t light = 0; light < job_.lights.size(); ++light) measure_view(alpha, light);
+        result_.build_seconds = info_of(context_).build_seconds;
         return std::move(result_);
     }
 

@@ -108,6 +108,7 @@ void print_budget_json(const BudgetJob &job, const BudgetResult &result) {
     document["seed"] = flags.seed;
     document["device"] = result.device;
     document["seconds"] = result.seconds;
+    document["build_seconds"] = result.build_seconds;
     document["standard_error"] = result.standard_error ? Json(*result.standard_error) : Json();
     document["rows"] = rows_json(job, result);
     document["mean"] = means_json(job, result);

@@ -50,6 +50,7 @@ struct SheetResult {
     double reference_seconds = 0.0;                          // of references that were rendered
     std::uint64_t reference_samples = 0;
     double total_seconds = 0.0;
+    double build_seconds = 0.0; // of these, compiling kernels
 
     double seconds_per_reference_sample() const {
         return reference_samples == 0 ? 0.0 : reference_seconds / static_cast<double>(reference_samples);

@@ -35,6 +35,7 @@ class SheetRenderer {
         }
         std::sort(result_.entries.begin(), result_.entries.end(),
                   [](const SheetEntry &a, const SheetEntry &b) { return a.image.id < b.image.id; });
+        result_.build_seconds = info_of(context_).build_seconds;
         return std::move(result_);
     }
 

@@ -142,6 +142,7 @@ std::string sheet_json(const SheetJob &job, const SheetResult &result) {
     document["sha256"] = result.material.sha256;
     document.update(settings_json(job, result));
     document["total_seconds"] = result.total_seconds;
+    document["build_seconds"] = result.build_seconds;
     document["reference_seconds"] = result.reference_seconds;
     document["seconds_per_reference_sample"] = result.seconds_per_reference_sample();
     document["fits"] = fits_json(result);
@@ -168,7 +169,8 @@ void print_summary(const SheetJob &job, const SheetResult &result) {
         std::cout << '\n';
     }
 
-    Facts facts = {{"total seconds", fixed(result.total_seconds, 2)}};
+    Facts facts = {{"total seconds",
+                    fixed(result.total_seconds, 2) + " (compiling kernels " + fixed(result.build_seconds, 2) + ")"}};
     if (result.reference_samples > 0)
         facts.emplace_back("seconds per reference sample", general(result.seconds_per_reference_sample(), 3));
     facts.emplace_back("contact sheet", job.file("sheet.png").string());
