@@ -38,11 +38,11 @@ __kernel void shade_widened_sphere(__global float4 *rgba, SphereView view, int f
         inside = s.inside;
         realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
         realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
-        Evaluation e = evaluation(&x, ix, iy, iz, s.ty, s.by, s.ny, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
+        Evaluation e = evaluation(&x, ix, iy, iz, s.ox, s.oy, s.oz, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
                                   SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
         e.visible = e.visible && s.inside;
         if (anyW(e.visible)) {
-            Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, s.ty, s.by, s.ny);
+            Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, s.ox, s.oy, s.oz);
 #if PER_LOBE
             for (int k = 0; k < count; ++k)
                 fcos = add_coloured(fcos, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z,
