@@ -97,6 +97,7 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
                              __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
     int at = W * (int)get_global_id(0), entry = (int)get_global_id(1);
     int k = entry % count;
+    if (at >= stride) return;
     realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
           iz = load_floatsW(0, wi + 2 * stride + at);
     realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
