@@ -110,7 +110,7 @@ template DeviceView<double> to_device(const Scene &);
 
 namespace {
 
-// Calls visit(right, up, depth2) for the centre of every pixel on the sphere: its offsets and the square of its depth
+// Calls visit(right, depth2) for the centre of every pixel on the sphere: its offset and the square of its depth
 // towards the viewer, in half pixels.
 template <typename Visit>
 void visit_sphere(const Scene &s, Visit visit) {
@@ -120,7 +120,7 @@ void visit_sphere(const Scene &s, Visit visit) {
         // From the first offset of the pixels' parity that lies within.
         std::int64_t first = left2 > 0 ? -static_cast<std::int64_t>(std::sqrt(static_cast<double>(left2 - 1))) : 0;
         if ((first + width) % 2 == 0) ++first;
-        for (std::int64_t right = first; right * right < left2; right += 2) visit(right, up, left2 - right * right);
+        for (std::int64_t right = first; right * right < left2; right += 2) visit(right, left2 - right * right);
     }
 }
 
@@ -128,14 +128,14 @@ void visit_sphere(const Scene &s, Visit visit) {
 
 std::uint64_t sphere_pixels(const Scene &s) {
     std::uint64_t count = 0;
-    visit_sphere(s, [&](std::int64_t, std::int64_t, std::int64_t) { ++count; });
+    visit_sphere(s, [&](std::int64_t, std::int64_t) { ++count; });
     return count;
 }
 
 std::uint64_t lit_pixels(const Scene &s) {
     const DeviceView view = to_device<float>(s);
     std::uint64_t count = 0;
-    visit_sphere(s, [&](std::int64_t right, std::int64_t, std::int64_t depth2) {
+    visit_sphere(s, [&](std::int64_t right, std::int64_t depth2) {
         const double cos_i =
             view.wi_x * static_cast<double>(right) + view.wi_y * std::sqrt(static_cast<double>(depth2));
         count += cos_i > 0.0;
@@ -143,19 +143,19 @@ std::uint64_t lit_pixels(const Scene &s) {
     return count;
 }
 
-void visit_lit_pixels(const Scene &s, const std::function<void(const LocalDirections &)> &visit) {
+std::optional<LocalDirections> lit_pixel(const Scene &s, std::uint32_t column, std::uint32_t row) {
     const double turn = view_to_light(s), side = std::min(s.width, s.height);
-    visit_sphere(s, [&](std::int64_t right, std::int64_t up, std::int64_t depth2) {
-        const double nx = static_cast<double>(right) / side, nz = static_cast<double>(up) / side;
-        const double ny = std::sqrt(static_cast<double>(depth2)) / side;
-        // Neither a pixel's centre nor what follows is at a pole: there depth2 would be 0.
-        const double sin_theta = std::hypot(nx, ny), cos_phi = nx / sin_theta, sin_phi = ny / sin_theta;
-        const auto local = [&](double wx, double wy) -> std::array<double, 3> {
-            return {nz * (cos_phi * wx + sin_phi * wy), cos_phi * wy - sin_phi * wx, nx * wx + ny * wy};
-        };
-        const LocalDirections d = {local(-std::sin(turn), std::cos(turn)), local(0.0, 1.0)};
-        if (d.wi[2] > 0.0) visit(d);
-    });
+    const double nx = (2.0 * column + 1.0 - s.width) / side, nz = (s.height - 2.0 * row - 1.0) / side;
+    const double depth2 = 1.0 - nx * nx - nz * nz;
+    if (depth2 <= 0.0) return {};
+    const double ny = std::sqrt(depth2), sin_theta = std::hypot(nx, ny); // not 0, since ny is not
+    const double cos_phi = nx / sin_theta, sin_phi = ny / sin_theta;
+    const auto local = [&](double wx, double wy) -> std::array<double, 3> {
+        return {nz * (cos_phi * wx + sin_phi * wy), cos_phi * wy - sin_phi * wx, nx * wx + ny * wy};
+    };
+    const LocalDirections d = {local(-std::sin(turn), std::cos(turn)), local(0.0, 1.0)};
+    if (d.wi[2] <= 0.0) return {};
+    return d;
 }
 
 } // namespace smx

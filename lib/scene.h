@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
+#include <optional>
 
 namespace smx {
 
@@ -67,10 +67,10 @@ double theta_d(const Scene &scene);
 std::uint64_t sphere_pixels(const Scene &scene);
 std::uint64_t lit_pixels(const Scene &scene);
 
-// wi and wo of a pixel in its frame (e_theta, e_phi, normal).
+// wi and wo of a pixel in its frame (e_theta, e_phi, normal); nothing where its centre is off the sphere or not lit.
 struct LocalDirections {
     std::array<double, 3> wi, wo;
 };
-void visit_lit_pixels(const Scene &scene, const std::function<void(const LocalDirections &)> &visit);
+std::optional<LocalDirections> lit_pixel(const Scene &scene, std::uint32_t column, std::uint32_t row);
 
 } // namespace smx
