@@ -27,15 +27,13 @@ Placement placement(int order) {
         case 1:
             return {4.0, 4.0, 1.85, 1.65, 1.8, 0};
         case 2:
-            return {2.5, -1.25, 0.975, 2.1, 0.4, 0};
+            return {3.0, 1.0, 0.9, 0.9, 1.0, 1};
         case 3:
             return {4.75, 2.0, 0.8, 1.0, 4.0, 0};
         case 4:
             return {3.0, 3.0, 1.1, 0.9, 1.0, 1};
         case 5:
             return {3.0, 3.0, 1.0, 0.9, 1.0, 1};
-        case 6:
-            return {3.0, 2.0, 0.9, 0.9, 1.0, 1};
         default:
             return {3.0, 1.0, 0.8, 0.9, 1.0, 1};
     }
