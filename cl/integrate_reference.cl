@@ -1,8 +1,8 @@
 // The statistical reference: the measured table integrated over the facets of X (facet_integral.clh),
 //   L(wi, wo) = (1 / p_o) integral f(wi_m, wo_m) <wi,wm>+ <wo,wm>+ G2_X D_X(wm) dwm
 // for the pixels of the sphere or for pairs of directions; all share the drawn facets (draw_facets.cl), and a work-item
-// owns one. On the sphere the camera is orthographic and the light directional, so theta_d is one for the image, and the
-// table may be cut there once.
+// owns one. On the sphere the camera is orthographic and the light directional, so theta_d is one for the image, and
+// the table may be cut there once.
 //
 // Build parameters
 //   W                lanes per work-item (vec.clh); default 1
@@ -116,8 +116,7 @@ __kernel void integrate_reference(__global float4 *sums, __global float4 *rests,
 // Takes a finished scramble, its `samples` summed, into the running mean and squared deviations over scrambles (Welford
 // 1962), as number `scramble` from 1, and clears the sums.
 __kernel void fold_scramble(__global float4 *sums, __global float4 *rests, __global float4 *means,
-                            __global float4 *deviations, float inv_samples, int items,
-                            int scramble) {
+                            __global float4 *deviations, float inv_samples, int items, int scramble) {
     int item = (int)get_global_id(0);
     if (item >= items) return;
     float4 value = (sums[item] + rests[item]) * inv_samples;
