@@ -1,5 +1,4 @@
-// Nanoseconds per evaluation of the kernels, from OpenCL's events: filtered shading by number of lobes, and the
-// reference per sample. Every row's time is of one evaluation on the whole device, not of the call.
+// Nanoseconds per sample of the reference on the whole device, from OpenCL's events, not of the call.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -13,22 +12,6 @@ smx_scene bench_scene(uint32_t side) {
     scene.width = scene.height = side;
     scene.displacement = {0.25, 0.25, 0.0, 0.0, 0.0};
     return scene;
-}
-
-// `count` distinct lobes, alphas 0.01 to 1, under flat curves.
-smx_material make_lobes(smx_model model, size_t count) {
-    std::vector<smx_lobe> lobes;
-    for (size_t k = 0; k < count; ++k) lobes.push_back({1.0, 0.01 + 0.99 * static_cast<double>(k) / 16.0});
-    const std::vector<double> fresnel(6 * count, 1.0);
-    smx_material_desc desc = SMX_MATERIAL_DESC_INIT;
-    desc.model = model;
-    desc.lobes = lobes.data();
-    desc.lobe_count = count;
-    desc.knots = 2;
-    desc.fresnel = fresnel.data();
-    smx_material material = nullptr;
-    check(smx_material_create(&desc, &material));
-    return material;
 }
 
 // Runs `render` until the benchmark has enough, with the kernel's seconds per evaluation as its time.
@@ -48,27 +31,6 @@ void measure(benchmark::State &state, Render render) {
     state.counters["s/eval"] =
         benchmark::Counter(evaluations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-
-void shade(benchmark::State &state, smx_model model) {
-    const smx_scene scene = bench_scene(1024);
-    smx_material material = make_lobes(model, static_cast<size_t>(state.range(0)));
-    measure(state, [&](smx_image *image, smx_render_report *report) {
-        return smx_render_filtered(shared_context(), material, &scene, nullptr, image, report);
-    });
-    smx_material_release(material);
-}
-BENCHMARK_CAPTURE(shade, shared, SMX_MODEL_SHARED)
-    ->Name("shade.shared")
-    ->ArgName("n")
-    ->RangeMultiplier(2)
-    ->Range(1, 16)
-    ->UseManualTime();
-BENCHMARK_CAPTURE(shade, per_lobe, SMX_MODEL_PER_LOBE)
-    ->Name("shade.per-lobe")
-    ->ArgName("n")
-    ->RangeMultiplier(2)
-    ->Range(1, 16)
-    ->UseManualTime();
 
 smx_render_options reference_options(smx_sampler sampler) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;

@@ -22,6 +22,9 @@ RenderOptions to_cpp(const smx_render_options &o) {
     out.seed = o.seed;
     out.lookup = static_cast<Lookup>(o.lookup);
     out.target_error = o.target_error;
+    out.grade = static_cast<Grade>(o.grade);
+    out.widening_order = o.widening_order;
+    out.widening_tolerance = o.widening_tolerance;
     out.errors = o.errors != 0;
     out.whole_table = o.whole_table != 0;
     if (o.exr_path) out.exr_path = o.exr_path;
@@ -33,7 +36,10 @@ RenderOptions to_cpp(const smx_render_options &o) {
 
 void fill(smx_render_report *report, const RenderReport &r) {
     if (!report) return;
-    *report = {sizeof *report, r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp, r.standard_error};
+    *report = {sizeof *report,   r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp,
+               r.standard_error, {},        r.unsettled};
+    for (std::size_t k = 0; k < r.orders.size(); ++k)
+        report->widening_orders[k] = static_cast<std::uint8_t>(r.orders[k]);
 }
 
 ProposalSource proposal_of(smx_brdf brdf) {
@@ -89,7 +95,8 @@ smx_status smx_render_geometry(smx_context context, const smx_scene *scene, cons
 }
 
 smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
-                             smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos) {
+                             smx_masking masking, const smx_render_options *options, size_t count, const float *wi,
+                             const float *wo, float *fcos) {
     return guarded([&] {
         require_pointer(context, "context");
         require_pointer(material, "material");
@@ -98,7 +105,7 @@ smx_status smx_material_eval(smx_context context, smx_material material, const s
         require_pointer(wo, "wo");
         require_pointer(fcos, "fcos");
         shade_filtered_pairs(*context->object, *material->object, to_cpp(*displacement), static_cast<Masking>(masking),
-                             count, wi, wo, fcos);
+                             to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options")), count, wi, wo, fcos);
     });
 }
 

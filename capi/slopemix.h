@@ -481,6 +481,19 @@ typedef enum smx_sampler {
                             * vector, joined by the balance heuristic */
 } smx_sampler;
 
+/* How exact the arithmetic of the kernels is. */
+typedef enum smx_grade {
+    SMX_GRADE_PRECISE = 0, /* float, elementary functions to about 2 units in the last place */
+    SMX_GRADE_FAST = 1,    /* float, elementary functions to about 1e-4 */
+    SMX_GRADE_DOUBLE = 2   /* double, slow, for checking; pixels are still float32. Needs cl_khr_fp64 on the device */
+} smx_grade;
+
+/* How a lobe is widened by X: in closed form, order 0 (Dupuy 2015, chapter 5), or by n x n Gauss-Hermite nodes, order n
+ * of 1..8, which converges to the integral over X's facets (docs/widening.md). Auto takes for every lobe the least order
+ * that an estimate from a few pixels allows. */
+#define SMX_WIDENING_MAX_ORDER 8
+#define SMX_WIDENING_AUTO (-1)
+
 typedef struct smx_render_options {
     size_t size;
     smx_sampler sampler; /* these seven: reference only */
@@ -497,9 +510,13 @@ typedef struct smx_render_options {
                         and the same but for rounding */
     const char *exr_path; /* not NULL: the image is written to this EXR file as it comes, in bounded memory, and `image`
                              must be NULL. Atomic. Such a file lacks the attribute slopemix.standard_error */
+    smx_grade grade; /* not of smx_render_geometry */
+    int32_t widening_order; /* of smx_render_filtered, 0..8 or SMX_WIDENING_AUTO: how lobes are widened by X */
+    double widening_tolerance; /* of SMX_WIDENING_AUTO: relRMSE that the widening may add to the image, 0 < it < 1 */
 } smx_render_options;
 #define SMX_RENDER_OPTIONS_INIT \
-    { sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL }
+    { sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL, \
+      SMX_GRADE_PRECISE, 0, 0.02 }
 
 typedef struct smx_render_report {
     size_t size;
@@ -510,13 +527,16 @@ typedef struct smx_render_report {
     uint32_t spp;          /* samples per pixel of a reference; 0 for the others */
     double standard_error; /* of a reference, from independent scrambles: root mean square over the image's. Negative
                             * where there is no estimate: the grid, or a number of samples that 16 does not divide */
+    uint8_t widening_orders[SMX_MAX_LOBES]; /* of a filtered image: of each lobe, in ascending alpha */
+    double unsettled; /* of a filtered image: share of the lit pixels where a lobe's nodes were placed by Newton steps
+                         whose last still promised more than 0.01 of the integrand's logarithm */
 } smx_render_report;
 #define SMX_RENDER_REPORT_INIT \
-    { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0 }
+    { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0, {0}, 0.0 }
 
 typedef struct smx_image_s *smx_image;
 
-/* The mixture widened by X in closed form, one evaluation per pixel. `report` may be NULL, and `image` must be where
+/* The mixture widened by X, in closed form or as options->widening_order says, one evaluation per pixel. `report` may be NULL, and `image` must be where
  * options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED,
  * CANNOT_WRITE. */
 SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
@@ -532,10 +552,12 @@ SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *sce
                                        smx_image *image, smx_render_report *report);
 
 /* f cos of the material widened by X, for `count` pairs of directions. wi, wo, fcos: [count][3], packed.
- * 0 where either direction is not above the surface. Not normalised: directions must be unit vectors.
+ * 0 where either direction is not above the surface. Not normalised: directions must be unit vectors. Of the options,
+ * which may be NULL, grade and widening_order count; SMX_WIDENING_AUTO needs an image.
  * Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY. */
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
-                                     smx_masking masking, size_t count, const float *wi, const float *wo, float *fcos);
+                                     smx_masking masking, const smx_render_options *options, size_t count,
+                                     const float *wi, const float *wo, float *fcos);
 
 /* The reference of smx_material_eval: f cos of the measured table integrated over X's facets, for `count` pairs of
  * directions. wi, wo, fcos, errors are planes, [3][count]: all x (or red), all y, all z. `errors` takes the standard

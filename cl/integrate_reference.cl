@@ -6,6 +6,7 @@
 //
 // Build parameters
 //   W                lanes per work-item (vec.clh); default 1
+//   GRADE            0: precise, 1: fast, 2: double (vec.clh); default 0
 //   TECHNIQUE        how the facets are drawn and weighted, 0..2 (facet_integral.clh); default 0
 //   TABLE_WHOLE      0: the table is a slice, 1: it is whole (table_slice.clh); default 0
 //   LOOKUP_NEAREST   0: linear, 1: nearest (table_slice.clh); default 0
@@ -22,10 +23,10 @@ inline realW masking_factor(const Displacement *x, realW ix, realW iy, realW iz,
     visible = visible && (p_i > (realW)0.0f) && (p_o > (realW)0.0f);
 
     // Lanes that are not visible work on harmless numbers and are dropped at the end.
-    realW safe_i = select((realW)1.0f, p_i, visible), safe_o = select((realW)1.0f, p_o, visible);
+    realW safe_i = selectW((realW)1.0f, p_i, visible), safe_o = selectW((realW)1.0f, p_o, visible);
     realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma(safe_i, displacement_s2(x, ix, iy)),
                               beckmann_sigma(safe_o, displacement_s2(x, ox, oy)));
-    return select((realW)0.0f, factor, visible);
+    return selectW((realW)0.0f, factor, visible);
 }
 
 // W pairs before their frames are made.
@@ -38,8 +39,8 @@ typedef struct {
 
 // Stores the lanes from `at` that lie before `end`.
 inline void store_pairs(__global Pair *pairs, int at, int end, const PairsW *from) {
-    float v[9][W];
-    int lit[W], there[W];
+    real v[9][W];
+    integer lit[W], there[W];
     vstoreW(from->ix, 0, v[0]);
     vstoreW(from->iy, 0, v[1]);
     vstoreW(from->iz, 0, v[2]);
@@ -52,7 +53,7 @@ inline void store_pairs(__global Pair *pairs, int at, int end, const PairsW *fro
     vstoreW(from->lit, 0, lit);
     vstoreW(from->there, 0, there);
     for (int k = 0; k < W && at + k < end; ++k) {
-        Pair p = make_pair((float3)(v[0][k], v[1][k], v[2][k]), (float3)(v[3][k], v[4][k], v[5][k]), v[6][k]);
+        Pair p = make_pair((real3)(v[0][k], v[1][k], v[2][k]), (real3)(v[3][k], v[4][k], v[5][k]), v[6][k]);
         cut_table(&p, v[7][k]);
         p.factor = v[8][k];
         p.lit = lit[k] != 0;
@@ -62,9 +63,9 @@ inline void store_pairs(__global Pair *pairs, int at, int end, const PairsW *fro
 }
 
 // Work-item (c, r) prepares pixels W c ... W c + W - 1 of row first_row + r. `theta_d` is the image's, in rows.
-__kernel void prepare_sphere(__global Pair *pairs, int first_row, Displacement x, SphereView view, float theta_d) {
+__kernel void prepare_sphere(__global Pair *pairs, int first_row, Displacement x, SphereView view, real theta_d) {
     int first_column = W * (int)get_global_id(0), row = (int)get_global_id(1);
-    SpherePoint s = sphere_point(&view, first_column + laneW, (intW)(first_row + row));
+    SpherePoint s = sphere_point(&view, first_column + laneW, first_row + row);
     PairsW p;
     p.ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y);
     p.iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
@@ -76,7 +77,7 @@ __kernel void prepare_sphere(__global Pair *pairs, int first_row, Displacement x
     p.theta_d = (realW)theta_d;
     p.there = s.inside;
     p.lit = s.inside && (p.iz > (realW)0.0f);
-    p.factor = masking_factor(&x, p.ix, p.iy, p.iz, s.ty, s.by, s.ny, p.lit);
+    p.factor = masking_factor(&x, p.ix, p.iy, p.iz, s.ox, s.oy, s.oz, p.lit);
     store_pairs(pairs, row * view.width + first_column, (row + 1) * view.width, &p);
 }
 
@@ -86,14 +87,15 @@ __kernel void prepare_pairs(__global Pair *pairs, int first, Displacement x, int
                             __global const float *wo, int stride) {
     int item = W * (int)get_global_id(0), at = first + item;
     if (item >= items) return;
-    realW ox = vloadW(0, wo + at), oy = vloadW(0, wo + stride + at), oz = vloadW(0, wo + 2 * stride + at);
+    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
+          oz = load_floatsW(0, wo + 2 * stride + at);
     PairsW p;
-    p.ix = vloadW(0, wi + at);
-    p.iy = vloadW(0, wi + stride + at);
-    p.iz = vloadW(0, wi + 2 * stride + at);
+    p.ix = load_floatsW(0, wi + at);
+    p.iy = load_floatsW(0, wi + stride + at);
+    p.iz = load_floatsW(0, wi + 2 * stride + at);
     realW hx = p.ix + ox, hy = p.iy + oy, hz = p.iz + oz;
     p.there = p.lit = (p.iz > (realW)0.0f) && (oz > (realW)0.0f);
-    realW twice_cos_d = select((realW)1.0f, sqrt(hx * hx + hy * hy + hz * hz), p.lit);
+    realW twice_cos_d = selectW((realW)1.0f, sqrt(hx * hx + hy * hy + hz * hz), p.lit);
     p.hx = hx / twice_cos_d;
     p.hy = hy / twice_cos_d;
     p.hz = hz / twice_cos_d;
@@ -136,7 +138,7 @@ __kernel void finish_reference(__global float4 *rgba, __global float4 *errors, _
                                int scrambles) {
     int item = (int)get_global_id(0);
     if (item >= items) return;
-    float factor = pairs[item].factor;
+    float factor = (float)pairs[item].factor;
     float inv_pairs = scrambles > 1 ? 1.0f / ((float)scrambles * (float)(scrambles - 1)) : 0.0f;
     float3 mean = means[item].xyz * factor, error = sqrt(deviations[item].xyz * inv_pairs) * factor;
     rgba[item] = pairs[item].there ? (float4)(mean, 1.0f) : (float4)(0.0f);

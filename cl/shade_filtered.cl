@@ -2,63 +2,47 @@
 //
 // Build parameters
 //   W             lanes per work-item (vec.clh); default 1
+//   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
 //   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
 //   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
 #include "fresnel.clh"
 #include "mixture.clh"
+#include "rgb.clh"
 #include "sphere.clh"
 
-typedef struct {
-    realW r, g, b;
-} RgbW;
-
-inline RgbW add_coloured(RgbW sum, realW r, realW g, realW b, realW value) {
-    sum.r = fma(r, value, sum.r);
-    sum.g = fma(g, value, sum.g);
-    sum.b = fma(b, value, sum.b);
-    return sum;
-}
-
 // f cos_i where F is one number per curve and channel.
-inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constant const float4 *fresnel,
+inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constant const real4 *fresnel,
                               const Evaluation *e) {
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
     for (int k = 0; k < count; ++k)
-        sum = add_coloured(sum, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z, lobe_fcos(lobes + k, e));
+        sum =
+            add_coloured(sum, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z, lobe_value(lobes + k, e));
 #else
     sum =
-        add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_fcos(lobes, count, e));
+        add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_value(lobes, count, e));
 #endif
-    return sum;
-}
-
-// Writes lanes as RGBA, alpha 1, or zeros where not inside; lanes at or past `valid` are not written.
-inline void store_rgba(__global float4 *out, RgbW value, intW inside, int valid) {
-    float r[W], g[W], b[W];
-    int in[W];
-    vstoreW(value.r, 0, r);
-    vstoreW(value.g, 0, g);
-    vstoreW(value.b, 0, b);
-    vstoreW(inside, 0, in);
-    for (int lane = 0; lane < W && lane < valid; ++lane)
-        out[lane] = in[lane] ? (float4)(r[lane], g[lane], b[lane], 1.0f) : (float4)(0.0f);
+    return scaled(sum, common_factor(e));
 }
 
 // The sphere of the experiment: work-item (c, r) shades pixels W c ... W c + W - 1 of row first_row + r. wi, wo and so
 // theta_d are one for the whole image; `fresnel` holds F(theta_d), one entry or one per lobe.
 __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int first_row, Displacement x,
-                                    __constant Lobe *lobes, int count, __constant float4 *fresnel) {
+                                    __constant Lobe *lobes, int count, __constant real4 *fresnel) {
     int first_column = W * (int)get_global_id(0);
     int band_row = (int)get_global_id(1);
-    SpherePoint s = sphere_point(&view, first_column + laneW, (intW)(first_row + band_row));
-    Evaluation e =
-        evaluation(&x, SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y),
-                   SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ty, s.by, s.ny, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
-                   SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
     RgbW fcos = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-    if (anyW(e.visible)) fcos = fcos_at_one_angle(lobes, count, fresnel, &e);
-    store_rgba(rgba + band_row * view.width + first_column, fcos, s.inside, view.width - first_column);
+    intW inside = (intW)0;
+    if (sphere_meets(&view, first_column, first_row + band_row)) {
+        SpherePoint s = sphere_point(&view, first_column + laneW, first_row + band_row);
+        inside = s.inside;
+        Evaluation e = evaluation(&x, SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y),
+                                  SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y), s.ox, s.oy, s.oz,
+                                  SPHERE_LOCAL_X(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y),
+                                  SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
+        if (anyW(e.visible)) fcos = fcos_at_one_angle(lobes, count, fresnel, &e);
+    }
+    store_rgba(rgba + band_row * view.width + first_column, fcos, inside, view.width - first_column);
 }
 
 // Pairs of directions as structure of arrays: wi, wo and fcos each [3][stride], stride a multiple of W. `curves` holds
@@ -67,8 +51,10 @@ __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global co
                                    Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
                                    __constant float *theta_d, int knots) {
     int at = W * (int)get_global_id(0);
-    realW ix = vloadW(0, wi + at), iy = vloadW(0, wi + stride + at), iz = vloadW(0, wi + 2 * stride + at);
-    realW ox = vloadW(0, wo + at), oy = vloadW(0, wo + stride + at), oz = vloadW(0, wo + 2 * stride + at);
+    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
+          iz = load_floatsW(0, wi + 2 * stride + at);
+    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
+          oz = load_floatsW(0, wo + 2 * stride + at);
     Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
     KnotPosition knot = knot_position(theta_d, knots, difference_angle(ix, iy, iz, ox, oy, oz));
 
@@ -77,13 +63,14 @@ __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global co
     for (int k = 0; k < count; ++k) {
         __global const float *curve = curves + 3 * k * knots;
         sum = add_coloured(sum, fresnel_at(curve, &knot), fresnel_at(curve + knots, &knot),
-                           fresnel_at(curve + 2 * knots, &knot), lobe_fcos(lobes + k, &e));
+                           fresnel_at(curve + 2 * knots, &knot), lobe_value(lobes + k, &e));
     }
 #else
     sum = add_coloured(sum, fresnel_at(curves, &knot), fresnel_at(curves + knots, &knot),
-                       fresnel_at(curves + 2 * knots, &knot), shared_fcos(lobes, count, &e));
+                       fresnel_at(curves + 2 * knots, &knot), shared_value(lobes, count, &e));
 #endif
-    vstoreW(sum.r, 0, fcos + at);
-    vstoreW(sum.g, 0, fcos + stride + at);
-    vstoreW(sum.b, 0, fcos + 2 * stride + at);
+    sum = scaled(sum, common_factor(&e));
+    store_floatsW(sum.r, 0, fcos + at);
+    store_floatsW(sum.g, 0, fcos + stride + at);
+    store_floatsW(sum.b, 0, fcos + 2 * stride + at);
 }

@@ -91,6 +91,7 @@ DeviceInfo device_info(const cl::Device &device) {
     info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.vector_width = vector_width(device);
+    info.has_double = device.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
     return info;
 }
 

@@ -15,6 +15,7 @@ struct DeviceInfo {
     std::uint32_t compute_units = 0;
     std::uint64_t global_memory = 0;
     std::uint32_t vector_width = 1; // evaluations per work-item
+    bool has_double = false;        // cl_khr_fp64
     std::uint32_t devices = 1;      // that work together in a context
 };
 

@@ -18,7 +18,7 @@ constexpr const char *kernel_file = "integrate_reference.cl", *drawing_file = "d
 constexpr std::uint32_t summation_block = 256;
 constexpr std::uint64_t launch_evaluations = 1u << 26;
 constexpr std::size_t facet_planes = 5; // the most that draw_facets.cl writes
-constexpr std::size_t pair_words = 21;  // of a Pair in cl/facet_integral.clh
+constexpr std::size_t pair_reals = 21;  // of a Pair in cl/facet_integral.clh
 
 std::uint32_t facets_per_launch(std::size_t items, const SamplingPlan &plan) {
     const std::uint64_t wanted = launch_evaluations / items / summation_block * summation_block;
@@ -37,8 +37,13 @@ std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
 }
 
 // The image's theta_d in rows of the whole table.
-float table_row(const Scene &scene) {
-    return static_cast<float>(theta_d(scene) / (std::numbers::pi / 2) * Brdf::theta_d_count);
+template <typename Real>
+Real table_row(const Scene &scene) {
+    return static_cast<Real>(theta_d(scene) / (std::numbers::pi / 2) * Brdf::theta_d_count);
+}
+
+cl::Buffer buffer_of_reals(const Context &device, Grade grade, std::size_t count) {
+    return with_real(grade, [&](auto real) { return empty_buffer<decltype(real)>(device, count); });
 }
 
 cl::Buffer plane_buffer(const Context &device, const std::vector<float> *planes) {
@@ -72,7 +77,7 @@ FacetIntegral::FacetIntegral(Context &device, const IntegralTask &task, std::uin
       per_launch_(facets_per_launch(most_items_, task.plan)),
       stride_(static_cast<std::uint32_t>(round_up(per_launch_, device.width()))),
       facets_(empty_buffer<float>(device, facet_planes * stride_)),
-      pairs_(empty_buffer<cl_uint>(device, pair_words * most_items_)),
+      pairs_(buffer_of_reals(device, task.grade, pair_reals * most_items_)),
       table_(buffer_from(device, *task.table)),
       lobes_(buffer_from(device, cumulated(*task.proposal))),
       density_(buffer_from(device, proposal_table(*task.proposal))),
@@ -84,7 +89,8 @@ FacetIntegral::FacetIntegral(Context &device, const IntegralTask &task, std::uin
       errors_(empty_buffer<cl_float4>(device, most_items_)),
       wi_(plane_buffer(device, task.pairs ? &task.pairs->wi : nullptr)),
       wo_(plane_buffer(device, task.pairs ? &task.pairs->wo : nullptr)) {
-    const Defines defines = {{"G2_SEPARABLE", task.masking == Masking::Separable},
+    const Defines defines = {{"GRADE", static_cast<int>(task.grade)},
+                             {"G2_SEPARABLE", task.masking == Masking::Separable},
                              {"LOOKUP_NEAREST", task.lookup == Lookup::Nearest},
                              {"TABLE_WHOLE", task.whole_table}};
     for (const Pass &pass : task.plan.passes)
@@ -121,7 +127,7 @@ cl::Kernel FacetIntegral::integrating_kernel(const Pass &pass, Defines defines) 
     kernel.setArg(0, sums_);
     kernel.setArg(1, rests_);
     kernel.setArg(2, pairs_);
-    kernel.setArg(4, to_device(task_.displacement));
+    set_arg(kernel, 4, task_.displacement, task_.grade);
     kernel.setArg(5, table_);
     kernel.setArg(6, density_);
     kernel.setArg(7, facets_);
@@ -134,10 +140,10 @@ void FacetIntegral::make_outer_kernels(Defines defines) {
     defines["TECHNIQUE"] = static_cast<int>(task_.plan.passes[0].technique); // any that is built already
     prepare_ = device_.kernel(kernel_file, task_.scene ? "prepare_sphere" : "prepare_pairs", defines);
     prepare_.setArg(0, pairs_);
-    prepare_.setArg(2, to_device(task_.displacement));
+    set_arg(prepare_, 2, task_.displacement, task_.grade);
     if (task_.scene) {
-        prepare_.setArg(3, to_device(*task_.scene));
-        prepare_.setArg(4, table_row(*task_.scene));
+        set_arg(prepare_, 3, *task_.scene, task_.grade);
+        with_real(task_.grade, [&](auto real) { prepare_.setArg(4, table_row<decltype(real)>(*task_.scene)); });
     } else {
         prepare_.setArg(4, wi_);
         prepare_.setArg(5, wo_);

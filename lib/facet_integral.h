@@ -31,6 +31,7 @@ struct IntegralTask {
     const std::vector<Lobe> *proposal = nullptr; // empty where nothing is drawn from it
     SamplingPlan plan;
     std::uint64_t seed = 0;
+    Grade grade = Grade::Precise;
     Tiling tiling;
     std::uint32_t row_items = 0; // pixels of a row; 1 for pairs
 };

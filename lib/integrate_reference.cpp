@@ -62,6 +62,7 @@ IntegralTask task_of(const Displacement &displacement, Masking masking, const Re
     task.masking = masking;
     task.lookup = options.lookup;
     task.seed = options.seed;
+    task.grade = options.grade;
     task.tiling = options.tiling;
     return task;
 }
@@ -73,6 +74,7 @@ Attributes describe_reference(const Brdf &brdf, const Scene &scene, const Render
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
     attributes["slopemix.sampler"] = samplers[static_cast<int>(options.sampler)];
     attributes["slopemix.spp"] = std::to_string(spp);
+    attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.seed"] = std::to_string(options.seed);
     attributes["slopemix.lookup"] = options.lookup == Lookup::Nearest ? "nearest" : "linear";
     return attributes;
@@ -134,6 +136,7 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
                              const RenderOptions &options) {
     validate(scene);
     validate(options);
+    validate(options.grade, context);
     const Context::Lock lock(context);
     const CallTimer timer(context);
     const auto canvas = make_canvas(scene.width, scene.height, options.errors, options.exr_path);
@@ -176,6 +179,7 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     validate(displacement);
     validate(masking);
     validate(options);
+    validate(options.grade, context);
     require(options.exr_path.empty(), "exr_path is \"", options.exr_path, "\"; pairs of directions make no image");
     require_pair_count(count);
     const Context::Lock lock(context);

@@ -5,9 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "canvas.h"
 #include "context.h"
+#include "grade.h"
 #include "image.h"
 #include "scene.h"
 #include "tile_queue.h"
@@ -28,6 +30,9 @@ struct RenderOptions {
     std::string exr_path;      // not empty: the image goes there as it comes, and none is returned
     Tiling tiling;
     std::function<bool(double share)> progress; // returns true to stop
+    Grade grade = Grade::Precise;
+    int widening_order = 0;           // of filtered shading: 0..8, or widening_auto (choose_orders.h)
+    double widening_tolerance = 0.02; // of widening_auto: relRMSE of the image
 };
 
 struct RenderReport {
@@ -35,6 +40,8 @@ struct RenderReport {
     std::uint64_t evaluations = 0;
     std::uint32_t spp = 0;        // drawn per pixel
     double standard_error = -1.0; // of the image, relative to its root mean square; negative: no estimate
+    std::vector<int> orders;      // of filtered shading: the widening's order of each lobe
+    double unsettled = 0.0; // share of the lit pixels that have a lobe whose nodes were placed before they settled
 };
 
 struct Rendered {

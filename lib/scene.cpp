@@ -63,9 +63,10 @@ PrincipalAxes principal_axes(const Displacement &x) {
     return {std::cos(angle), std::sin(angle), larger, significant(smaller)};
 }
 
-DeviceDisplacement to_device(const Displacement &x) {
+template <typename Real>
+DeviceDisplacement<Real> to_device(const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
-    const auto f = [](double v) { return static_cast<float>(v); };
+    const auto f = [](double v) { return static_cast<Real>(v); };
     return {f(x.mean_slope_x),
             f(x.mean_slope_y),
             f(x.alpha_x * x.alpha_x),
@@ -76,6 +77,9 @@ DeviceDisplacement to_device(const Displacement &x) {
             f(axes.var_1),
             f(axes.var_2)};
 }
+
+template DeviceDisplacement<float> to_device(const Displacement &);
+template DeviceDisplacement<double> to_device(const Displacement &);
 
 namespace {
 
@@ -88,20 +92,25 @@ double view_to_light(const Scene &s) {
 
 double theta_d(const Scene &s) { return std::abs(view_to_light(s)) / 2; }
 
-DeviceView to_device(const Scene &s) {
+template <typename Real>
+DeviceView<Real> to_device(const Scene &s) {
     const double turn = view_to_light(s);
-    const auto f = [](double v) { return static_cast<float>(v); };
+    const auto f = [](double v) { return static_cast<Real>(v); };
     return {static_cast<std::int32_t>(s.width),
             static_cast<std::int32_t>(s.height),
+            f(1.0 / std::min(s.width, s.height)),
             f(-std::sin(turn)),
             f(std::cos(turn)),
             f(-std::sin(turn / 2)),
             f(std::cos(turn / 2))};
 }
 
+template DeviceView<float> to_device(const Scene &);
+template DeviceView<double> to_device(const Scene &);
+
 namespace {
 
-// Calls visit(right, depth2) for the centre of every pixel on the sphere: its offset and the square of its depth
+// Calls visit(right, up, depth2) for the centre of every pixel on the sphere: its offsets and the square of its depth
 // towards the viewer, in half pixels.
 template <typename Visit>
 void visit_sphere(const Scene &s, Visit visit) {
@@ -111,7 +120,7 @@ void visit_sphere(const Scene &s, Visit visit) {
         // From the first offset of the pixels' parity that lies within.
         std::int64_t first = left2 > 0 ? -static_cast<std::int64_t>(std::sqrt(static_cast<double>(left2 - 1))) : 0;
         if ((first + width) % 2 == 0) ++first;
-        for (std::int64_t right = first; right * right < left2; right += 2) visit(right, left2 - right * right);
+        for (std::int64_t right = first; right * right < left2; right += 2) visit(right, up, left2 - right * right);
     }
 }
 
@@ -119,19 +128,34 @@ void visit_sphere(const Scene &s, Visit visit) {
 
 std::uint64_t sphere_pixels(const Scene &s) {
     std::uint64_t count = 0;
-    visit_sphere(s, [&](std::int64_t, std::int64_t) { ++count; });
+    visit_sphere(s, [&](std::int64_t, std::int64_t, std::int64_t) { ++count; });
     return count;
 }
 
 std::uint64_t lit_pixels(const Scene &s) {
-    const DeviceView view = to_device(s);
+    const DeviceView view = to_device<float>(s);
     std::uint64_t count = 0;
-    visit_sphere(s, [&](std::int64_t right, std::int64_t depth2) {
+    visit_sphere(s, [&](std::int64_t right, std::int64_t, std::int64_t depth2) {
         const double cos_i =
             view.wi_x * static_cast<double>(right) + view.wi_y * std::sqrt(static_cast<double>(depth2));
         count += cos_i > 0.0;
     });
     return count;
+}
+
+void visit_lit_pixels(const Scene &s, const std::function<void(const LocalDirections &)> &visit) {
+    const double turn = view_to_light(s), side = std::min(s.width, s.height);
+    visit_sphere(s, [&](std::int64_t right, std::int64_t up, std::int64_t depth2) {
+        const double nx = static_cast<double>(right) / side, nz = static_cast<double>(up) / side;
+        const double ny = std::sqrt(static_cast<double>(depth2)) / side;
+        // Neither a pixel's centre nor what follows is at a pole: there depth2 would be 0.
+        const double sin_theta = std::hypot(nx, ny), cos_phi = nx / sin_theta, sin_phi = ny / sin_theta;
+        const auto local = [&](double wx, double wy) -> std::array<double, 3> {
+            return {nz * (cos_phi * wx + sin_phi * wy), cos_phi * wy - sin_phi * wx, nx * wx + ny * wy};
+        };
+        const LocalDirections d = {local(-std::sin(turn), std::cos(turn)), local(0.0, 1.0)};
+        if (d.wi[2] > 0.0) visit(d);
+    });
 }
 
 } // namespace smx

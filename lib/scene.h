@@ -1,7 +1,9 @@
 // The displaced surface and the experiment's sphere, as the host knows them, and their structs on the device.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 
 namespace smx {
 
@@ -28,19 +30,22 @@ void validate(const Displacement &displacement);
 void validate(Masking masking);
 void validate(const Scene &scene);
 
-// As in cl/displacement.clh.
+// As in cl/displacement.clh; Real is float, or double in the grade of that name (grade.h).
+template <typename Real = float>
 struct DeviceDisplacement {
-    float mean_x, mean_y;
-    float cov_xx, cov_xy, cov_yy;
-    float axis_x, axis_y;
-    float var_1, var_2;
+    Real mean_x, mean_y;
+    Real cov_xx, cov_xy, cov_yy;
+    Real axis_x, axis_y;
+    Real var_1, var_2;
 };
 
 // As in cl/sphere.clh.
+template <typename Real = float>
 struct DeviceView {
     std::int32_t width, height;
-    float wi_x, wi_y;
-    float wh_x, wh_y;
+    Real inv_side;
+    Real wi_x, wi_y;
+    Real wh_x, wh_y;
 };
 
 // Covariance and principal axes, in double before they are rounded.
@@ -50,8 +55,10 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(const Displacement &displacement);
 
-DeviceDisplacement to_device(const Displacement &displacement);
-DeviceView to_device(const Scene &scene);
+template <typename Real = float>
+DeviceDisplacement<Real> to_device(const Displacement &displacement);
+template <typename Real = float>
+DeviceView<Real> to_device(const Scene &scene);
 
 // Half the angle between light and view, 0..pi/2: one for the whole image.
 double theta_d(const Scene &scene);
@@ -59,5 +66,11 @@ double theta_d(const Scene &scene);
 // Pixels whose centre lies on the sphere; of them, those that are turned towards the light.
 std::uint64_t sphere_pixels(const Scene &scene);
 std::uint64_t lit_pixels(const Scene &scene);
+
+// wi and wo of a pixel in its frame (e_theta, e_phi, normal).
+struct LocalDirections {
+    std::array<double, 3> wi, wo;
+};
+void visit_lit_pixels(const Scene &scene, const std::function<void(const LocalDirections &)> &visit);
 
 } // namespace smx

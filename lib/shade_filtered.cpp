@@ -1,50 +1,80 @@
 #include "shade_filtered.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
+#include "choose_orders.h"
 #include "device_buffer.h"
 #include "direction_pairs.h"
 #include "error.h"
+#include "widening.h"
 
 namespace smx {
 
 namespace {
 
-constexpr const char *kernel_file = "shade_filtered.cl";
-
 // As in cl/mixture.clh.
+template <typename Real>
 struct DeviceLobe {
-    float weight, alpha2, inv_var_1, inv_var_2, peak;
+    Real weight, alpha2, exponent_1, exponent_2, peak;
 };
 
 // Each lobe's variances plus X's, along X's principal axes.
-std::vector<DeviceLobe> widened_lobes(const Material &material, const Displacement &x) {
+template <typename Real>
+std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
-    std::vector<DeviceLobe> lobes;
+    const auto r = [](double v) { return static_cast<Real>(v); };
+    std::vector<DeviceLobe<Real>> lobes;
     for (const auto &[share, alpha] : material.lobes) {
         const double weight = material.model == Model::Shared ? share : 1.0;
         const double alpha2 = alpha * alpha, var_1 = alpha2 + axes.var_1, var_2 = alpha2 + axes.var_2;
         const double peak = weight / (std::numbers::pi * std::sqrt(var_1) * std::sqrt(var_2));
-        lobes.push_back({static_cast<float>(weight), static_cast<float>(alpha2), static_cast<float>(1.0 / var_1),
-                         static_cast<float>(1.0 / var_2), static_cast<float>(peak)});
+        lobes.push_back(
+            {r(weight), r(alpha2), r(-std::numbers::log2e / var_1), r(-std::numbers::log2e / var_2), r(peak)});
     }
     return lobes;
 }
 
-Defines defines(Model model, Masking masking) {
-    return {{"PER_LOBE", model == Model::PerLobe}, {"G2_SEPARABLE", masking == Masking::Separable}};
+cl::Buffer lobe_buffer(const Context &context, const Material &material, const Displacement &x, Grade grade) {
+    return with_real(grade,
+                     [&](auto real) { return buffer_from(context, widened_lobes<decltype(real)>(material, x)); });
 }
 
-// F at one angle, one entry per set of curves.
-std::vector<cl_float4> fresnel_at_angle(const Material &material, double theta_d) {
-    std::vector<cl_float4> values;
-    for (const FresnelCurves &curves : material.fresnel) {
-        const Rgb f = fresnel_at(material.theta_d, curves, theta_d);
-        values.push_back({{static_cast<float>(f[0]), static_cast<float>(f[1]), static_cast<float>(f[2]), 0.0f}});
+// The kernels of filtered shading: all lobes in closed form, or each by its order.
+struct Program {
+    bool widened;
+    Defines defines;
+
+    Program(const Material &material, const Displacement &x, Masking masking, const std::vector<int> &orders,
+            Grade grade)
+        : widened(std::any_of(orders.begin(), orders.end(), [](int order) { return order > 0; })),
+          defines{{"PER_LOBE", material.model == Model::PerLobe},
+                  {"G2_SEPARABLE", masking == Masking::Separable},
+                  {"GRADE", static_cast<int>(grade)}} {
+        if (widened) defines["WIDENING"] = rough_axes(x);
     }
-    return values;
+
+    // `what` is sphere or pairs.
+    cl::Kernel kernel(Context &device, const std::string &what) const {
+        const std::string name = widened ? "shade_widened" : "shade_filtered";
+        return device.kernel(name + ".cl", name + '_' + what, defines);
+    }
+};
+
+// F at one angle, one entry (r, g, b, 0) per set of curves.
+cl::Buffer fresnel_at_angle(const Context &context, const Material &material, double theta_d, Grade grade) {
+    return with_real(grade, [&](auto real) {
+        std::vector<decltype(real)> values;
+        for (const FresnelCurves &curves : material.fresnel) {
+            for (double f : fresnel_at(material.theta_d, curves, theta_d))
+                values.push_back(static_cast<decltype(real)>(f));
+            values.push_back(0);
+        }
+        return buffer_from(context, values);
+    });
 }
 
 // All curves, as cl/fresnel.clh reads them.
@@ -63,81 +93,152 @@ std::vector<float> packed_knots(const Material &material) {
     return knots;
 }
 
-} // namespace
-
-namespace {
-
-// What one device does with a tile of the sphere.
+// What one device does with a tile of the sphere. Adds to `unsettled`.
 RenderRows start_sphere(Context &device, const Material &material, const Scene &scene, const RenderOptions &options,
-                        std::uint32_t most_rows) {
-    const std::vector<DeviceLobe> lobes = widened_lobes(material, scene.displacement);
-    const cl::Buffer fresnel = buffer_from(device, fresnel_at_angle(material, theta_d(scene)));
+                        const std::vector<int> &orders, std::uint32_t most_rows,
+                        std::atomic<std::uint64_t> &unsettled) {
+    const Grade grade = options.grade;
+    const Program program(material, scene.displacement, scene.masking, orders, grade);
+    const cl::Buffer fresnel = fresnel_at_angle(device, material, theta_d(scene), grade);
     const cl::Buffer rgba = empty_buffer<cl_float4>(device, std::size_t{most_rows} * scene.width);
-    const cl::Buffer lobe_buffer = buffer_from(device, lobes);
-    cl::Kernel kernel = device.kernel(kernel_file, "shade_filtered_sphere", defines(material.model, scene.masking));
+    const cl::Buffer lobes = lobe_buffer(device, material, scene.displacement, grade);
+    cl::Kernel kernel = program.kernel(device, "sphere");
     kernel.setArg(0, rgba);
-    kernel.setArg(1, to_device(scene));
-    kernel.setArg(3, to_device(scene.displacement));
-    kernel.setArg(4, lobe_buffer);
-    kernel.setArg(5, static_cast<cl_int>(lobes.size()));
+    set_arg(kernel, 1, scene, grade);
+    set_arg(kernel, 3, scene.displacement, grade);
+    kernel.setArg(4, lobes);
+    kernel.setArg(5, static_cast<cl_int>(material.lobes.size()));
     kernel.setArg(6, fresnel);
-    const std::size_t columns = round_up(scene.width, device.width()) / device.width();
     // A kernel does not keep its buffers alive.
-    return [&device, &scene, &options, rgba, kernel, columns, kept = std::array{fresnel, lobe_buffer}](
+    std::vector<cl::Buffer> kept = {fresnel, lobes};
+    cl::Buffer count;
+    if (program.widened) {
+        for (const cl::Buffer &buffer : set_widening(device, kernel, 7, material, scene.displacement, orders, grade))
+            kept.push_back(buffer);
+        count = buffer_from(device, std::vector<cl_int>{0});
+        kernel.setArg(10, count);
+    }
+    const std::size_t columns = round_up(scene.width, device.width()) / device.width();
+    return [&device, &scene, &options, &unsettled, rgba, kernel, columns, kept, count](
                const Tile &tile, const TileRows &to, const Step &) mutable {
+        if (count()) device.queue().enqueueFillBuffer(count, cl_int{0}, 0, sizeof(cl_int));
         kernel.setArg(2, static_cast<cl_int>(tile.first_row));
         const double seconds = launch(device, kernel, columns, tile.rows, options.tiling.work_group);
         read_rows(device, rgba, std::size_t{tile.rows} * scene.width, to.rgba);
+        cl_int counted = 0;
+        if (count()) device.queue().enqueueReadBuffer(count, CL_TRUE, 0, sizeof counted, &counted);
+        unsettled += static_cast<std::uint64_t>(counted);
         return seconds;
     };
+}
+
+std::string text_of(const std::vector<int> &orders) {
+    std::string text;
+    for (int order : orders) {
+        if (!text.empty()) text += ',';
+        text += std::to_string(order);
+    }
+    return text;
 }
 
 } // namespace
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
+    validate(options.grade, context);
+    validate_widening(options);
+    const auto [orders, choice] = widening_orders(context, material, scene, options);
     Attributes attributes = describe("filtered", scene);
     attributes["slopemix.material"] = material.name;
     attributes["slopemix.model"] = model_name(material.model);
+    attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
-    return render_once(context, scene, options, attributes, [&](Context &device, std::uint32_t most_rows) {
-        return start_sphere(device, material, scene, options, most_rows);
-    });
+    attributes["slopemix.widening_order"] =
+        options.widening_order == widening_auto ? "auto" : std::to_string(options.widening_order);
+    attributes["slopemix.widening_orders"] = text_of(orders);
+    std::atomic<std::uint64_t> unsettled = 0;
+    Rendered rendered = render_once(
+        context, scene, options, attributes, [&, &orders = orders](Context &device, std::uint32_t most_rows) {
+            return start_sphere(device, material, scene, options, orders, most_rows, unsettled);
+        });
+    rendered.report.orders = orders;
+    rendered.report.seconds += choice.seconds;
+    rendered.report.kernel_seconds += choice.kernel_seconds;
+    rendered.report.build_seconds += choice.build_seconds;
+    const std::uint64_t lit = lit_pixels(scene);
+    rendered.report.unsettled = lit == 0 ? 0.0 : static_cast<double>(unsettled) / static_cast<double>(lit);
+    return rendered;
 }
 
 void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement, Masking masking,
-                          std::size_t count, const float *wi, const float *wo, float *fcos) {
+                          const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
+                          float *fcos) {
     validate(displacement);
-    require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
-            "; it must be 0 or 1");
+    validate(masking);
+    const Grade grade = options.grade;
+    validate(grade, context);
+    validate_widening(options);
+    require(options.widening_order != widening_auto, "widening_order is -1 (auto); for pairs it must be 0..",
+            max_widening_order);
     require_pair_count(count);
     const std::size_t stride = round_up(count, context.width());
     if (count == 0) return;
 
     const Context::Lock lock(context);
-    const std::vector<DeviceLobe> lobes = widened_lobes(material, displacement);
+    const std::vector<int> orders = fixed_orders(material, displacement, options.widening_order);
+    const Program program(material, displacement, masking, orders, grade);
     const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
-    const cl::Buffer lobe_buffer = buffer_from(context, lobes);
+    const cl::Buffer lobes = lobe_buffer(context, material, displacement, grade);
     const cl::Buffer curves = buffer_from(context, packed_curves(material));
     const cl::Buffer knots = buffer_from(context, packed_knots(material));
-    cl::Kernel kernel = context.kernel(kernel_file, "shade_filtered_pairs", defines(material.model, masking));
+    cl::Kernel kernel = program.kernel(context, "pairs");
     kernel.setArg(0, out);
     kernel.setArg(1, static_cast<cl_int>(stride));
     kernel.setArg(2, wi_buffer);
     kernel.setArg(3, wo_buffer);
-    kernel.setArg(4, to_device(displacement));
-    kernel.setArg(5, lobe_buffer);
-    kernel.setArg(6, static_cast<cl_int>(lobes.size()));
+    set_arg(kernel, 4, displacement, grade);
+    kernel.setArg(5, lobes);
+    kernel.setArg(6, static_cast<cl_int>(material.lobes.size()));
     kernel.setArg(7, curves);
     kernel.setArg(8, knots);
     kernel.setArg(9, static_cast<cl_int>(material.theta_d.size()));
+    std::vector<cl::Buffer> kept;
+    if (program.widened) kept = set_widening(context, kernel, 10, material, displacement, orders, grade);
     context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(stride / context.width()));
 
     std::vector<float> planes(3 * stride);
     context.queue().enqueueReadBuffer(out, CL_TRUE, 0, planes.size() * sizeof(float), planes.data());
     from_planes(planes, count, fcos);
+}
+
+LobeValues eval_lobes(Context &context, const Material &material, const std::vector<int> &orders, const Scene &scene,
+                      Grade grade, std::size_t count, const float *wi, const float *wo) {
+    const std::size_t stride = round_up(count, context.width());
+    const Program program(material, scene.displacement, scene.masking, orders, grade);
+    const cl::Buffer out = empty_buffer<float>(context, orders.size() * stride);
+    const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
+    const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
+    const cl::Buffer lobes = lobe_buffer(context, material, scene.displacement, grade);
+    cl::Kernel kernel = context.kernel("shade_widened.cl", "probe_widening", program.defines);
+    kernel.setArg(0, out);
+    kernel.setArg(1, static_cast<cl_int>(stride));
+    kernel.setArg(2, wi_buffer);
+    kernel.setArg(3, wo_buffer);
+    set_arg(kernel, 4, scene.displacement, grade);
+    kernel.setArg(5, lobes);
+    kernel.setArg(6, static_cast<cl_int>(material.lobes.size()));
+    const auto kept = set_widening(context, kernel, 7, material, scene.displacement, orders, grade);
+    LobeValues result;
+    result.kernel_seconds = launch(context, kernel, stride / context.width(), orders.size(), 0);
+
+    std::vector<float> padded(orders.size() * stride);
+    context.queue().enqueueReadBuffer(out, CL_TRUE, 0, padded.size() * sizeof(float), padded.data());
+    for (std::size_t entry = 0; entry < orders.size(); ++entry)
+        result.values.insert(result.values.end(), padded.begin() + static_cast<std::ptrdiff_t>(entry * stride),
+                             padded.begin() + static_cast<std::ptrdiff_t>(entry * stride + count));
+    return result;
 }
 
 } // namespace smx

@@ -1,4 +1,4 @@
-// Launches of cl/shade_filtered.cl: a material's mixture widened by X in closed form.
+// Launches of cl/shade_filtered.cl and cl/shade_widened.cl: a material's mixture widened by X, each lobe by its order.
 #pragma once
 
 #include "material.h"
@@ -8,8 +8,19 @@ namespace smx {
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options);
 
-// f cos for `count` pairs of directions; wi, wo, fcos are [count][3], packed.
+// f cos for `count` pairs of directions; wi, wo, fcos are [count][3], packed. Of the options, the grade and the
+// widening's order count.
 void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement, Masking masking,
-                          std::size_t count, const float *wi, const float *wo, float *fcos);
+                          const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
+                          float *fcos);
+
+// Values of single lobes, without Fresnel factor, [entry][count], where entry j lobes + k is of lobe k by
+// orders[entry].
+struct LobeValues {
+    std::vector<float> values;
+    double kernel_seconds;
+};
+LobeValues eval_lobes(Context &context, const Material &material, const std::vector<int> &orders, const Scene &scene,
+                      Grade grade, std::size_t count, const float *wi, const float *wo);
 
 } // namespace smx

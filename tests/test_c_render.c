@@ -196,20 +196,20 @@ static void check_eval(void) {
     smx_displacement bad = x;
     const float up[3] = {0.0f, 0.0f, 1.0f};
     float fcos[3] = {-7.0f, -7.0f, -7.0f};
-    INVALID("context", smx_material_eval(NULL, material, &x, SMX_G2_CORRELATED, 1, up, up, fcos));
-    INVALID("material", smx_material_eval(context, NULL, &x, SMX_G2_CORRELATED, 1, up, up, fcos));
-    INVALID("displacement", smx_material_eval(context, material, NULL, SMX_G2_CORRELATED, 1, up, up, fcos));
-    INVALID("wi", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, 1, NULL, up, fcos));
-    INVALID("wo", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, 1, up, NULL, fcos));
-    INVALID("fcos", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, 1, up, up, NULL));
-    INVALID("masking", smx_material_eval(context, material, &x, (smx_masking)7, 1, up, up, fcos));
+    INVALID("context", smx_material_eval(NULL, material, &x, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
+    INVALID("material", smx_material_eval(context, NULL, &x, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
+    INVALID("displacement", smx_material_eval(context, material, NULL, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
+    INVALID("wi", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, NULL, 1, NULL, up, fcos));
+    INVALID("wo", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, NULL, 1, up, NULL, fcos));
+    INVALID("fcos", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, NULL, 1, up, up, NULL));
+    INVALID("masking", smx_material_eval(context, material, &x, (smx_masking)7, NULL, 1, up, up, fcos));
     bad.rho = 1.0;
-    INVALID("rho", smx_material_eval(context, material, &bad, SMX_G2_CORRELATED, 1, up, up, fcos));
+    INVALID("rho", smx_material_eval(context, material, &bad, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
     bad = x;
     bad.alpha_y = NAN;
-    INVALID("alpha_y", smx_material_eval(context, material, &bad, SMX_G2_CORRELATED, 1, up, up, fcos));
+    INVALID("alpha_y", smx_material_eval(context, material, &bad, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
     CHECK(fcos[0] == -7.0f && fcos[1] == -7.0f && fcos[2] == -7.0f);
-    OK(smx_material_eval(context, material, &x, SMX_G2_CORRELATED, 1, up, up, fcos));
+    OK(smx_material_eval(context, material, &x, SMX_G2_CORRELATED, NULL, 1, up, up, fcos));
     CHECK(fcos[0] > 0.0f && fcos[2] > 0.0f);
 }
 

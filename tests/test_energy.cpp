@@ -57,7 +57,7 @@ double library_energy(const Furnace &furnace, smx_masking g, const Vec &wo) {
     std::vector<float> wos, fcos(3 * count);
     for (std::size_t k = 0; k < count; ++k)
         for (const double v : {wo.x, wo.y, wo.z}) wos.push_back(static_cast<float>(v));
-    EXPECT_SMX_OK(smx_material_eval(test::context(), test::make_material(furnace.lobes), &furnace.x, g, count,
+    EXPECT_SMX_OK(smx_material_eval(test::context(), test::make_material(furnace.lobes), &furnace.x, g, nullptr, count,
                                     hemisphere().data(), wos.data(), fcos.data()));
     double sum = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -134,10 +134,10 @@ TEST(Energy, ShadingIsReciprocal) {
                     list->insert(list->end(),
                                  {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
                 }
-            ASSERT_SMX_OK(
-                smx_material_eval(test::context(), material, &f.x, g, count, wi.data(), wo.data(), there.data()));
-            ASSERT_SMX_OK(
-                smx_material_eval(test::context(), material, &f.x, g, count, wo.data(), wi.data(), back.data()));
+            ASSERT_SMX_OK(smx_material_eval(test::context(), material, &f.x, g, nullptr, count, wi.data(), wo.data(),
+                                            there.data()));
+            ASSERT_SMX_OK(smx_material_eval(test::context(), material, &f.x, g, nullptr, count, wo.data(), wi.data(),
+                                            back.data()));
             for (std::size_t k = 0; k < count; ++k)
                 ASSERT_TRUE(test::is_close(static_cast<double>(there[3 * k]) / wi[3 * k + 2],
                                            static_cast<double>(back[3 * k]) / wo[3 * k + 2], reciprocity_tolerance,

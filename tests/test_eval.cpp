@@ -115,7 +115,7 @@ Directions hard_directions() {
 std::vector<float> eval(smx_material material, const smx_displacement &x, smx_masking g, const Directions &d) {
     std::vector<float> fcos(3 * d.count(), -1.0f);
     EXPECT_SMX_OK(
-        smx_material_eval(test::context(), material, &x, g, d.count(), d.wi.data(), d.wo.data(), fcos.data()));
+        smx_material_eval(test::context(), material, &x, g, nullptr, d.count(), d.wi.data(), d.wo.data(), fcos.data()));
     return fcos;
 }
 
@@ -269,7 +269,7 @@ TEST(Eval, WritesExactlyItsResults) {
         for (std::size_t k = 0; k < count; ++k) d.add(random.direction(0.1), random.direction(0.1));
         constexpr float canary = -12345.0f;
         std::vector<float> fcos(3 * count + 64, canary);
-        ASSERT_SMX_OK(smx_material_eval(test::context(), material, &x, SMX_G2_CORRELATED, count, d.wi.data(),
+        ASSERT_SMX_OK(smx_material_eval(test::context(), material, &x, SMX_G2_CORRELATED, nullptr, count, d.wi.data(),
                                         d.wo.data(), fcos.data()));
         for (std::size_t k = 0; k < fcos.size(); ++k)
             ASSERT_EQ(fcos[k] == canary, k >= 3 * count) << k << " of " << count;

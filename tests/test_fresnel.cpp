@@ -26,10 +26,10 @@ std::vector<double> ratio_to_white(const std::vector<double> &curves, std::size_
     std::vector<float> a(3 * theta_d.size()), b(a.size());
     const smx_displacement x{0.2, 0.2, 0.0, 0.0, 0.0};
     const smx_context context = test::context();
-    EXPECT_SMX_OK(
-        smx_material_eval(context, coloured, &x, SMX_G2_CORRELATED, theta_d.size(), wi.data(), wo.data(), a.data()));
-    EXPECT_SMX_OK(
-        smx_material_eval(context, white, &x, SMX_G2_CORRELATED, theta_d.size(), wi.data(), wo.data(), b.data()));
+    EXPECT_SMX_OK(smx_material_eval(context, coloured, &x, SMX_G2_CORRELATED, nullptr, theta_d.size(), wi.data(),
+                                    wo.data(), a.data()));
+    EXPECT_SMX_OK(smx_material_eval(context, white, &x, SMX_G2_CORRELATED, nullptr, theta_d.size(), wi.data(),
+                                    wo.data(), b.data()));
     std::vector<double> ratio;
     for (std::size_t k = 0; k < a.size(); ++k) ratio.push_back(static_cast<double>(a[k]) / b[k]);
     return ratio;
@@ -91,8 +91,8 @@ TEST(Fresnel, EveryLobeHasItsCurves) {
         const float wi[3] = {static_cast<float>(i.x), static_cast<float>(i.y), static_cast<float>(i.z)};
         const float wo[3] = {static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z)};
         float a[3], b[3];
-        ASSERT_SMX_OK(smx_material_eval(test::context(), alone, &x, SMX_G2_CORRELATED, 1, wi, wo, a));
-        ASSERT_SMX_OK(smx_material_eval(test::context(), second, &x, SMX_G2_CORRELATED, 1, wi, wo, b));
+        ASSERT_SMX_OK(smx_material_eval(test::context(), alone, &x, SMX_G2_CORRELATED, nullptr, 1, wi, wo, a));
+        ASSERT_SMX_OK(smx_material_eval(test::context(), second, &x, SMX_G2_CORRELATED, nullptr, 1, wi, wo, b));
         for (int c = 0; c < 3; ++c) EXPECT_CLOSE(b[c], a[c], 1e-6, 0.0);
     }
 }

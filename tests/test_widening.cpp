@@ -27,7 +27,7 @@ std::vector<float> eval(const std::vector<oracle::Lobe> &lobes, const smx_displa
         for (const double v : {i.x, i.y, i.z}) wi.push_back(static_cast<float>(v));
         for (const double v : {o.x, o.y, o.z}) wo.push_back(static_cast<float>(v));
     }
-    EXPECT_SMX_OK(smx_material_eval(test::context(), test::make_material(lobes), &x, SMX_G2_CORRELATED, count,
+    EXPECT_SMX_OK(smx_material_eval(test::context(), test::make_material(lobes), &x, SMX_G2_CORRELATED, nullptr, count,
                                     wi.data(), wo.data(), fcos.data()));
     return fcos;
 }

@@ -19,6 +19,7 @@ Words expected_words(const std::string &sha256, const smx_scene &scene, const sm
             {"slopemix.integrator", "reference"},
             {"slopemix.brdf_sha256", sha256},
             {"slopemix.g", word_for(scene.masking, maskings)},
+            {"slopemix.grade", word_for(options.grade, grades)},
             {"slopemix.sampler", word_for(options.sampler, samplers)},
             {"slopemix.lookup", word_for(options.lookup, lookups)},
             {"slopemix.spp", std::to_string(options.spp)},

@@ -58,7 +58,7 @@ std::vector<std::vector<double>> slice_at_45_degrees(const Context &context, con
     append(1.0);
     const smx_displacement none = {};
     for (const Material *material : materials) {
-        check(smx_material_eval(context.get(), material->get(), &none, SMX_G2_CORRELATED, pairs.count(),
+        check(smx_material_eval(context.get(), material->get(), &none, SMX_G2_CORRELATED, nullptr, pairs.count(),
                                 pairs.wi.data(), pairs.wo.data(), f.data()));
         append(1.0 / std::cos(radians(theta_i)));
     }

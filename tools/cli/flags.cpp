@@ -77,6 +77,8 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
     add_choice(command, "--g", flags.masking, maskings,
                "Masking and shadowing, height-correlated or separable (default correlated)");
+    add_choice(command, "--grade", flags.grade, grades,
+               "Arithmetic: float to about 1e-4, float to its precision, or double for checking (default precise)");
 }
 
 std::string sampling_text(const RenderFlags &flags) {

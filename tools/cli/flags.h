@@ -20,6 +20,8 @@ inline constexpr Choice<smx_model> models[] = {{"shared", SMX_MODEL_SHARED}, {"p
 inline constexpr Choice<smx_sampler> samplers[] = {
     {"grid", SMX_SAMPLER_GRID}, {"sobol", SMX_SAMPLER_SOBOL}, {"mis", SMX_SAMPLER_MIS}};
 inline constexpr Choice<smx_lookup> lookups[] = {{"linear", SMX_LOOKUP_LINEAR}, {"nearest", SMX_LOOKUP_NEAREST}};
+inline constexpr Choice<smx_grade> grades[] = {
+    {"fast", SMX_GRADE_FAST}, {"precise", SMX_GRADE_PRECISE}, {"double", SMX_GRADE_DOUBLE}};
 inline constexpr Choice<smx_masking> maskings[] = {{"correlated", SMX_G2_CORRELATED}, {"separable", SMX_G2_SEPARABLE}};
 
 // Adds an option that stores parse(text); what parse refuses is wrong usage. `target` must outlive the parsing.
@@ -79,6 +81,7 @@ struct RenderFlags {
     std::uint64_t seed = 0;
     smx_lookup lookup = SMX_LOOKUP_LINEAR;
     smx_masking masking = SMX_G2_CORRELATED;
+    smx_grade grade = SMX_GRADE_PRECISE;
     std::string device; // empty: the library's choice
     std::uint32_t sub_devices = 0;
 };

@@ -31,6 +31,7 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["mean_slope"] = {job.mean_slope.first, job.mean_slope.second};
     json["light_phi_deg"] = job.light_degrees;
     json["g"] = word_for(job.flags.masking, maskings);
+    json["grade"] = word_for(job.flags.grade, grades);
     json["resolution"] = {job.flags.resolution.width, job.flags.resolution.height};
     json["spp"] = job.is_reference() ? Json(rendered.rendering.report.spp) : Json();
     json["target_error"] = job.flags.target_error > 0.0 ? Json(job.flags.target_error) : Json();

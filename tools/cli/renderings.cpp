@@ -23,6 +23,7 @@ smx_render_options render_options(const RenderFlags &flags) {
     options.target_error = flags.target_error;
     options.seed = flags.seed;
     options.lookup = flags.lookup;
+    options.grade = flags.grade;
     return options;
 }
 

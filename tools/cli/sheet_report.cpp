@@ -120,7 +120,8 @@ Json settings_json(const SheetJob &job, const SheetResult &result) {
             {"sampler", word_for(flags.sampler, samplers)},
             {"seed", flags.seed},
             {"lookup", word_for(flags.lookup, lookups)},
-            {"g", word_for(flags.masking, maskings)}};
+            {"g", word_for(flags.masking, maskings)},
+            {"grade", word_for(flags.grade, grades)}};
 }
 
 Json exposures_json(const SheetResult &result) {

@@ -1,0 +1,116 @@
+// Filtered shading beyond the closed form: every lobe widened by its order (widen.clh), one pixel or pair per lane.
+//
+// Build parameters
+//   W             lanes per work-item (vec.clh); default 1
+//   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
+//   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
+//   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
+//   WIDENING      axes along which X is rough, 1 or 2 (facet_chart.clh); default 2
+#ifndef WIDENING
+#define WIDENING 2
+#endif
+
+#include "fresnel.clh"
+#include "rgb.clh"
+#include "sphere.clh"
+#include "widen.clh"
+
+inline int lanes_of(intW mask) {
+    int lanes = 0;
+    integer in[W];
+    vstoreW(selectW((intW)0, (intW)1, mask), 0, in);
+    for (int lane = 0; lane < W; ++lane) lanes += (int)in[lane];
+    return lanes;
+}
+
+// The sphere of the experiment, as in shade_filtered.cl. Adds to `unsettled` the visible pixels that have a lobe whose
+// peak the Newton steps did not settle.
+__kernel void shade_widened_sphere(__global float4 *rgba, SphereView view, int first_row, Displacement x,
+                                   __constant Lobe *lobes, int count, __constant real4 *fresnel, FacetDensity facets,
+                                   __constant QuadratureLobe *orders, __constant HermiteNode *nodes,
+                                   __global int *unsettled) {
+    int first_column = W * (int)get_global_id(0);
+    int band_row = (int)get_global_id(1);
+    RgbW fcos = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
+    intW inside = (intW)0;
+    if (sphere_meets(&view, first_column, first_row + band_row)) {
+        SpherePoint s = sphere_point(&view, first_column + laneW, first_row + band_row);
+        inside = s.inside;
+        realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
+        realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
+        Evaluation e = evaluation(&x, ix, iy, iz, s.ty, s.by, s.ny, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
+                                  SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
+        e.visible = e.visible && s.inside;
+        if (anyW(e.visible)) {
+            Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, s.ty, s.by, s.ny);
+#if PER_LOBE
+            for (int k = 0; k < count; ++k)
+                fcos = add_coloured(fcos, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z,
+                                    widened_lobe(lobes, count, k, &e, &q));
+#else
+            fcos = add_coloured(fcos, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z,
+                                widened_mixture(lobes, count, &e, &q));
+#endif
+            fcos = scaled(fcos, selectW((realW)0.0f, 0.25f * e.i.p, e.visible));
+            int lanes = lanes_of(q.unsettled && e.visible);
+            if (lanes > 0) atomic_add(unsettled, lanes);
+        }
+    }
+    store_rgba(rgba + band_row * view.width + first_column, fcos, inside, view.width - first_column);
+}
+
+// Pairs of directions, as in shade_filtered.cl.
+__kernel void shade_widened_pairs(__global float *fcos, int stride, __global const float *wi, __global const float *wo,
+                                  Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
+                                  __constant float *theta_d, int knots, FacetDensity facets,
+                                  __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
+    int at = W * (int)get_global_id(0);
+    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
+          iz = load_floatsW(0, wi + 2 * stride + at);
+    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
+          oz = load_floatsW(0, wo + 2 * stride + at);
+    Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
+    Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, ox, oy, oz);
+    KnotPosition knot = knot_position(theta_d, knots, difference_angle(ix, iy, iz, ox, oy, oz));
+
+    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
+#if PER_LOBE
+    for (int k = 0; k < count; ++k) {
+        __global const float *curve = curves + 3 * k * knots;
+        sum = add_coloured(sum, fresnel_at(curve, &knot), fresnel_at(curve + knots, &knot),
+                           fresnel_at(curve + 2 * knots, &knot), widened_lobe(lobes, count, k, &e, &q));
+    }
+#else
+    sum = add_coloured(sum, fresnel_at(curves, &knot), fresnel_at(curves + knots, &knot),
+                       fresnel_at(curves + 2 * knots, &knot), widened_mixture(lobes, count, &e, &q));
+#endif
+    sum = scaled(sum, selectW((realW)0.0f, 0.25f * e.i.p, e.visible));
+    store_floatsW(sum.r, 0, fcos + at);
+    store_floatsW(sum.g, 0, fcos + stride + at);
+    store_floatsW(sum.b, 0, fcos + 2 * stride + at);
+}
+
+// What lobe k of `count` is by its j-th order, orders[j count + k], at W pairs of directions: work-item (c, j count +
+// k) writes values[j count + k][W c ...], without Fresnel factor. For the choice of an order (lib/choose_orders.cpp).
+__kernel void probe_widening(__global float *values, int stride, __global const float *wi, __global const float *wo,
+                             Displacement x, __constant Lobe *lobes, int count, FacetDensity facets,
+                             __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
+    int at = W * (int)get_global_id(0), entry = (int)get_global_id(1);
+    int k = entry % count;
+    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
+          iz = load_floatsW(0, wi + 2 * stride + at);
+    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
+          oz = load_floatsW(0, wo + 2 * stride + at);
+    Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
+    Quadrature q = quadrature(&facets, orders + entry - k, nodes, &e, ix, iy, iz, ox, oy, oz);
+#if PER_LOBE
+    realW value = widened_lobe(lobes, count, k, &e, &q);
+#else
+    realW value;
+    if (q.lobes[k].order == 0)
+        value = lobes[k].peak * lobe_shape(lobes + k, &e.h) * e.h.inv_cos4 * mixture_g2(lobes, count, &e);
+    else
+        value = q.g2 * lobe_integral(&facets, &q.at, q.lobes + k, lobes, count, nodes, &q.unsettled);
+#endif
+    store_floatsW(value * selectW((realW)0.0f, 0.25f * e.i.p, e.visible), 0, values + entry * stride + at);
+}
