@@ -38,11 +38,11 @@ __kernel void shade_widened_sphere(__global float4 *rgba, SphereView view, int f
         inside = s.inside;
         realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
         realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
-        Evaluation e = evaluation(&x, ix, iy, iz, s.ty, s.by, s.ny, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
+        Evaluation e = evaluation(&x, ix, iy, iz, s.ox, s.oy, s.oz, SPHERE_LOCAL_X(s, view.wh_x, view.wh_y),
                                   SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y), SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y));
         e.visible = e.visible && s.inside;
         if (anyW(e.visible)) {
-            Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, s.ty, s.by, s.ny);
+            Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, s.ox, s.oy, s.oz);
 #if PER_LOBE
             for (int k = 0; k < count; ++k)
                 fcos = add_coloured(fcos, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z,
@@ -97,6 +97,7 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
                              __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
     int at = W * (int)get_global_id(0), entry = (int)get_global_id(1);
     int k = entry % count;
+    if (at >= stride) return;
     realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
           iz = load_floatsW(0, wi + 2 * stride + at);
     realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),

@@ -12,35 +12,34 @@ namespace smx {
 
 namespace {
 
-// The model of the integrand that places an order's nodes (cl/facet_peak.clh), and Newton steps towards its peak.
-// Chosen on 70 measured materials at alphas 0.25 and 0.5 for the least error of each order (docs/widening.md). Order 1
-// takes the integrand's own exponents, but for more of the masking; the more nodes there are, the less it matters.
+// The model of the integrand that places an order's nodes (cl/facet_peak.clh), how far the first guess keeps from a
+// horizon, and how much X counts in it against the lobe. Chosen on 70 measured materials at alphas 0.25 and 0.5 for the
+// least error of each order (docs/widening.md). Order 1 takes the integrand's own exponents, but for more of the
+// masking; the more nodes there are, the less it matters.
 struct Placement {
     double turn_h, turn_z, masked;
-    int steps;
+    double lift, pull;
+    int steps; // to other charts
 };
 
 Placement placement(int order) {
     switch (order) {
         case 1:
-            return {4.0, 4.0, 1.75, 2};
+            return {4.0, 4.0, 1.85, 1.65, 1.8, 0};
         case 2:
-            return {3.0, 1.0, 0.9, 2};
+            return {3.0, -0.5, 1.0, 2.25, 0.4, 0};
         case 3:
-            return {2.0, 0.0, 0.5, 2};
+            return {4.75, 2.0, 0.8, 1.0, 4.0, 0};
         case 4:
         case 5:
-            return {3.0, 3.0, 1.1, 2};
+            return {3.0, 3.0, 1.1, 0.9, 1.0, 1};
         default:
-            return {3.0, 1.0, 0.8, 3};
+            return {3.0, 1.0, 0.8, 0.9, 1.0, 1};
     }
 }
 
-// How fast the model's sigma falls to the cosine: its slope at grazing would be sigma's own at 1/4.
+// How fast the model's sigma falls to the cosine.
 constexpr double fall_over_sigma = 0.2;
-
-// How far the first guess is lifted off a horizon: about what log cos asks for, against a Gaussian of X and the lobe.
-constexpr double lift = 0.45;
 
 // Principal axes, the rougher one first.
 PrincipalAxes rougher_first(const Displacement &displacement) {
@@ -120,11 +119,12 @@ std::vector<DeviceQuadratureLobe<Real>> quadrature_lobes(const Material &materia
         const double weight = material.model == Model::Shared ? share : 1.0;
         const int order = orders[entry];
         const Placement model = placement(order);
+        const double pull_1 = model.pull * axes.var_1, pull_2 = model.pull * axes.var_2;
         lobes.push_back({order, first_node(order), model.steps, 0, r(alpha2), r(1.0 / alpha2),
                          r(weight / (pi * alpha2) * surface), r(model.turn_h / 2), r(model.turn_z / 2),
-                         r(model.masked / 2), r(sigma_0), r(fall_over_sigma / sigma_0),
-                         r(alpha2 / (alpha2 + axes.var_1)), r(alpha2 / (alpha2 + axes.var_2)),
-                         r(lift * alpha2 * axes.var_1 / (alpha2 + axes.var_1))});
+                         r(model.masked / 2), r(sigma_0), r(fall_over_sigma / sigma_0), r(alpha2 / (alpha2 + pull_1)),
+                         r(alpha2 / (alpha2 + pull_2)),
+                         r(2.0 * model.lift * alpha2 * axes.var_1 / (alpha2 + axes.var_1))});
     }
     return lobes;
 }

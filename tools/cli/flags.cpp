@@ -12,6 +12,8 @@ namespace {
 constexpr CountRange spp_range = {1, 1u << 24};
 constexpr CountRange sub_devices_range = {1, 1u << 16};
 constexpr NumberRange target_error_range = {1e-6, 0.5};
+constexpr NumberRange tolerance_range = {1e-6, 0.5};
+constexpr CountRange order_range = {0, SMX_WIDENING_MAX_ORDER};
 
 bool is_square(std::uint32_t value) {
     const auto root = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(value))));
@@ -79,6 +81,27 @@ void add_render_flags(CLI::App &command, RenderFlags &flags) {
                "Masking and shadowing, height-correlated or separable (default correlated)");
     add_choice(command, "--grade", flags.grade, grades,
                "Arithmetic: float to about 1e-4, float to its precision, or double for checking (default precise)");
+}
+
+std::int32_t parse_widening_order(const std::string &text) {
+    return text == "auto" ? SMX_WIDENING_AUTO : static_cast<std::int32_t>(parse_count(text, order_range));
+}
+
+std::string widening_text(std::int32_t order) { return order == SMX_WIDENING_AUTO ? "auto" : std::to_string(order); }
+
+void add_widening_tolerance(CLI::App &command, RenderFlags &flags) {
+    const auto parse_tolerance = [](const std::string &text) { return parse_number(text, tolerance_range); };
+    add_parsed(command, "--widening-tolerance", flags.widening_tolerance, parse_tolerance,
+               "relRMSE that --widening-order auto may leave (default 0.02)")
+        ->type_name("E");
+}
+
+void add_widening_flags(CLI::App &command, RenderFlags &flags) {
+    add_parsed(command, "--widening-order", flags.widening_order, parse_widening_order,
+               "How the displaced surface widens a lobe in filtered images: 0 in closed form, 1 to 8 by quadrature of "
+               "that order, auto by the least that will do (default 0)")
+        ->type_name("N");
+    add_widening_tolerance(command, flags);
 }
 
 std::string sampling_text(const RenderFlags &flags) {

@@ -82,6 +82,8 @@ struct RenderFlags {
     smx_lookup lookup = SMX_LOOKUP_LINEAR;
     smx_masking masking = SMX_G2_CORRELATED;
     smx_grade grade = SMX_GRADE_PRECISE;
+    std::int32_t widening_order = 0; // of filtered images
+    double widening_tolerance = 0.02;
     std::string device; // empty: the library's choice
     std::uint32_t sub_devices = 0;
 };
@@ -91,6 +93,14 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags);
 
 // These and the others.
 void add_render_flags(CLI::App &command, RenderFlags &flags);
+
+// 0..8, or auto as SMX_WIDENING_AUTO.
+std::int32_t parse_widening_order(const std::string &text);
+std::string widening_text(std::int32_t order);
+
+// The order of filtered images, and the tolerance of auto.
+void add_widening_flags(CLI::App &command, RenderFlags &flags);
+void add_widening_tolerance(CLI::App &command, RenderFlags &flags);
 
 // How a reference is sampled: "4096 samples per pixel" or "standard error 0.01".
 std::string sampling_text(const RenderFlags &flags);

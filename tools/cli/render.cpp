@@ -44,7 +44,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
                       << word_for(job.integrator, integrators) << '\n';
     };
     if (job.is_reference())
-        for (const char *flag : {"--lobes", "--model"}) note(flag);
+        for (const char *flag : {"--lobes", "--model", "--widening-order", "--widening-tolerance"}) note(flag);
     else
         for (const char *flag : {"--spp", "--target-error", "--sampler", "--seed", "--lookup", "--errors"}) note(flag);
 }
@@ -162,11 +162,12 @@ void add_render(CLI::App &app) {
         ->required()
         ->type_name("");
     add_choice(*command, "--integrator", job->integrator, integrators,
-               "The mixture widened in closed form, or the measured table integrated over the surface's facets")
+               "The mixture widened by the surface, or the measured table integrated over its facets")
         ->required();
     add_scene_flags(*command, *job);
     add_fit_flags(*command, job->fit);
     add_render_flags(*command, job->flags);
+    add_widening_flags(*command, job->flags);
     command->add_option("--out", job->out, "The image to write")->required()->type_name("X.exr");
     command->add_flag("--errors", job->errors,
                       "Also write the reference's standard errors, as channels error.R, error.G, error.B");

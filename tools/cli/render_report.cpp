@@ -1,6 +1,7 @@
 // What `slopemix render` prints.
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "render_job.h"
 #include "text.h"
@@ -20,11 +21,21 @@ bool has_error(const RenderJob &job, const smx_render_report &report) {
     return job.is_reference() && report.standard_error >= 0.0;
 }
 
+// By lobe.
+std::vector<int> orders_of(const Rendered &rendered) {
+    const std::uint8_t *orders = rendered.rendering.report.widening_orders;
+    return {orders, orders + rendered.lobes};
+}
+
+Json order_json(std::int32_t order) { return order == SMX_WIDENING_AUTO ? Json("auto") : Json(order); }
+
 Json configuration(const RenderJob &job, const Rendered &rendered) {
     Json json = {{"input", job.input}, {"material", rendered.name}};
     json["integrator"] = word_for(job.integrator, integrators);
     json["model"] = job.is_reference() ? Json() : Json(word_for(rendered.model, models));
     json["lobes"] = job.is_reference() ? Json() : Json(rendered.lobes);
+    json["widening_order"] = job.is_reference() ? Json() : order_json(job.flags.widening_order);
+    json["widening_orders"] = job.is_reference() ? Json() : Json(orders_of(rendered));
     json["alpha_x"] = job.alpha.first;
     json["alpha_y"] = job.alpha.second;
     json["rho"] = job.rho;
@@ -53,6 +64,7 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
     document["png"] = job.png ? Json(job.png_file().string()) : Json();
     document["exposure"] = job.png ? Json(rendered.exposure) : Json();
     document["standard_error"] = has_error(job, report) ? Json(report.standard_error) : Json();
+    document["unsettled"] = job.is_reference() ? Json() : Json(report.unsettled);
     document["seconds"] = report.seconds;
     document["kernel_seconds"] = report.kernel_seconds;
     document["build_seconds"] = report.build_seconds;
@@ -67,6 +79,11 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
     facts.emplace_back("integrator", job.is_reference() ? "reference, samples per pixel: " + std::to_string(report.spp)
                                                         : std::string("filtered, ") + word_for(rendered.model, models) +
                                                               ", lobes: " + std::to_string(rendered.lobes));
+    if (!job.is_reference()) {
+        std::string orders;
+        for (int order : orders_of(rendered)) orders += ' ' + std::to_string(order);
+        facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);
+    }
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
     facts.emplace_back("device", rendered.device);
     facts.emplace_back("seconds", fixed(report.seconds, 3) + " (on the device " + fixed(report.kernel_seconds, 3) +

@@ -24,6 +24,8 @@ smx_render_options render_options(const RenderFlags &flags) {
     options.seed = flags.seed;
     options.lookup = flags.lookup;
     options.grade = flags.grade;
+    options.widening_order = flags.widening_order;
+    options.widening_tolerance = flags.widening_tolerance;
     return options;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "commands.h"
@@ -18,7 +19,7 @@ constexpr Choice<bool> sheet_models[] = {{"shared", false}, {"both", true}};
 
 SheetPlan plan_of(const SheetJob &job) {
     try {
-        return SheetPlan(job.radii, job.lobes, job.with_per_lobe, job.only);
+        return SheetPlan(job.radii, job.lobes, job.per_lobe_orders(), job.only);
     } catch (const std::invalid_argument &error) {
         throw CLI::ValidationError("--only", error.what());
     }
@@ -62,6 +63,17 @@ std::vector<std::uint32_t> parse_lobes(const std::string &text) {
     return lobes;
 }
 
+std::vector<std::int32_t> parse_orders(const std::string &text) {
+    std::vector<std::int32_t> orders;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) orders.push_back(parse_widening_order(word));
+    if (orders.empty() || text.back() == ',') throw std::invalid_argument("'" + text + "' is not a list of orders");
+    for (auto later = orders.begin(); later != orders.end(); ++later)
+        if (std::find(orders.begin(), later, *later) != later)
+            throw std::invalid_argument("'" + text + "' names " + widening_text(*later) + " twice");
+    return orders;
+}
+
 } // namespace
 
 void add_sheet(CLI::App &app) {
@@ -81,6 +93,11 @@ void add_sheet(CLI::App &app) {
     add_parsed(*command, "--model", job->with_per_lobe, parse_models,
                "both: also the per-lobe model with the last of --lobes, behind the other columns (default shared)")
         ->type_name("shared|both");
+    add_parsed(*command, "--widening-order", job->widening_orders, parse_orders,
+               "More columns: the per-lobe model with the last of --lobes, widened by quadrature of these orders, 0 to "
+               "8, 0 being the closed form, or auto")
+        ->type_name("N,...");
+    add_widening_tolerance(*command, job->flags);
     add_parsed(*command, "--only", job->only, parse_image_ids, "Only these images (default all)")
         ->type_name("T.R.C,...");
     add_render_flags(*command, job->flags);
@@ -88,7 +105,8 @@ void add_sheet(CLI::App &app) {
     command->footer(
         "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
         "Columns C: 1 the geometry, then for each light (90, 0, -25 degrees) the reference and one filtered image per\n"
-        "entry of --lobes under the shared model; with --model both, then the per-lobe model for each light. A "
+        "entry of --lobes under the shared model; with --model both, then the per-lobe model for each light; with\n"
+        "--widening-order, then the same for each order and light. A "
         "filtered image that --only names without its reference is compared with DIR's, if that\n"
         "was made with the same settings, or else with one that is rendered for the purpose and not kept.");
     command->callback([job] { run(*job); });

@@ -1,6 +1,7 @@
 // What `slopemix sheet` is asked for and what comes out.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -20,8 +21,17 @@ struct SheetJob {
     std::vector<double> radii = {0.1, 0.25, 0.5};
     std::vector<std::uint32_t> lobes = {1, 8};
     bool with_per_lobe = false;
+    std::vector<std::int32_t> widening_orders; // more columns of the per-lobe model
     std::vector<ImageId> only;
     bool json = false;
+
+    // Widening orders of the per-lobe columns.
+    std::vector<std::int32_t> per_lobe_orders() const {
+        std::vector<std::int32_t> orders = widening_orders;
+        const bool closed_form = std::find(orders.begin(), orders.end(), 0) != orders.end();
+        if (with_per_lobe && !closed_form) orders.insert(orders.begin(), 0);
+        return orders;
+    }
 
     std::filesystem::path file(const std::string &name) const { return std::filesystem::path(out) / name; }
     std::filesystem::path image_file(const ImageId &id) const { return file(to_string(id) + ".exr"); }

@@ -57,9 +57,10 @@ std::vector<ContactSheet::Group> column_groups(const SheetPlan &plan) {
                                                {"light φ = 90° (at the camera)", columns},
                                                {"light φ = 0° (right)", columns},
                                                {"light φ = −25° (right, behind)", columns}};
-    if (plan.with_per_lobe())
-        groups.push_back(
-            {"per-lobe model, N = " + std::to_string(plan.lobes().back()), {"φ = 90°", "φ = 0°", "φ = −25°"}});
+    for (const std::int32_t order : plan.per_lobe_orders())
+        groups.push_back({"per-lobe, N = " + std::to_string(plan.lobes().back()) +
+                              (order == 0 ? "" : ", order " + widening_text(order)),
+                          {"φ = 90°", "φ = 0°", "φ = −25°"}});
     return groups;
 }
 

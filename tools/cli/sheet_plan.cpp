@@ -15,12 +15,9 @@ std::pair<double, double> alphas(std::uint32_t table, double radius) {
 
 } // namespace
 
-SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, bool with_per_lobe,
+SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, std::vector<std::int32_t> orders,
                      const std::vector<ImageId> &only)
-    : radii_(std::move(radii)),
-      lobes_(std::move(lobes)),
-      with_per_lobe_(with_per_lobe),
-      only_(only.begin(), only.end()) {
+    : radii_(std::move(radii)), lobes_(std::move(lobes)), orders_(std::move(orders)), only_(only.begin(), only.end()) {
     for (const ImageId &id : only_)
         if (id.table > table_count || id.row > rows() || id.column > columns())
             throw std::invalid_argument("there is no image " + to_string(id) + ": this sheet has tables 1.." +
@@ -31,9 +28,17 @@ SheetPlan::SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes
 SheetImage SheetPlan::image(ImageId id) const {
     const auto [alpha_x, alpha_y] = alphas(id.table, radii_[id.row - 1]);
     if (id.column == 1) return {id, Role::geometry, alpha_x, alpha_y, 0, 0};
-    if (id.column > shared_columns())
-        return {
-            id, Role::filtered, alpha_x, alpha_y, id.column - shared_columns() - 1, lobes_.back(), SMX_MODEL_PER_LOBE};
+    if (id.column > shared_columns()) {
+        const std::uint32_t past = id.column - shared_columns() - 1;
+        return {id,
+                Role::filtered,
+                alpha_x,
+                alpha_y,
+                past % lights,
+                lobes_.back(),
+                SMX_MODEL_PER_LOBE,
+                orders_[past / lights]};
+    }
     const std::uint32_t light = (id.column - 2) / per_light();
     const std::uint32_t position = (id.column - 2) % per_light();
     if (position == 0) return {id, Role::reference, alpha_x, alpha_y, light, 0};
@@ -47,7 +52,7 @@ std::vector<ImageId> SheetPlan::filtered_under(const ImageId &reference, std::ui
         if (is_wanted(id)) ids.push_back(id);
     };
     for (std::uint32_t k = 1; k < per_light(); ++k) add(reference.column + k);
-    if (with_per_lobe_) add(shared_columns() + 1 + light);
+    for (std::uint32_t k = 0; k < orders_.size(); ++k) add(shared_columns() + 1 + k * lights + light);
     return ids;
 }
 

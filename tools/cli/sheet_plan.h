@@ -1,7 +1,7 @@
 // The sheet's images: which there are, what each shows, and in which order they are rendered. Three tables by the
 // direction of the roughness, a row per radius r, and the columns: geometry, then for each light the reference and
-// one filtered image of the shared model per number of lobes; then, where asked for, the per-lobe model with the last
-// of these numbers, light by light.
+// one filtered image of the shared model per number of lobes; then, for each widening order that is asked for, the
+// per-lobe model with the last of these numbers, light by light.
 #pragma once
 
 #include <array>
@@ -27,6 +27,7 @@ struct SheetImage {
     std::size_t light;   // index into light_degrees; not of geometry
     std::uint32_t lobes; // asked for; of filtered images only, as is the model
     smx_model model = SMX_MODEL_SHARED;
+    std::int32_t widening_order = 0;
 
     bool has_light() const { return role != Role::geometry; }
 };
@@ -39,14 +40,14 @@ struct SheetStep {
 class SheetPlan {
   public:
     // `only` empty: all images. Throws std::invalid_argument for an image that the sheet does not have.
-    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, bool with_per_lobe,
+    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, std::vector<std::int32_t> orders,
               const std::vector<ImageId> &only);
 
     const std::vector<double> &radii() const { return radii_; }
     const std::vector<std::uint32_t> &lobes() const { return lobes_; }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(radii_.size()); }
-    std::uint32_t columns() const { return shared_columns() + (with_per_lobe_ ? lights : 0); }
-    bool with_per_lobe() const { return with_per_lobe_; }
+    std::uint32_t columns() const { return shared_columns() + lights * static_cast<std::uint32_t>(orders_.size()); }
+    const std::vector<std::int32_t> &per_lobe_orders() const { return orders_; }
 
     SheetImage image(ImageId id) const;
 
@@ -62,7 +63,7 @@ class SheetPlan {
 
     std::vector<double> radii_;
     std::vector<std::uint32_t> lobes_;
-    bool with_per_lobe_;
+    std::vector<std::int32_t> orders_; // of the per-lobe columns
     std::set<ImageId> only_;
 };
 

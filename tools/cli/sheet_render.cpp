@@ -104,7 +104,9 @@ class SheetRenderer {
 
     void process_filtered(const SheetStep &step) {
         const Material &material = materials_.at(key_of(step.image));
-        const Rendering rendering = render_filtered(context_, material, scene_of(step.image), options());
+        smx_render_options how = options();
+        how.widening_order = step.image.widening_order;
+        const Rendering rendering = render_filtered(context_, material, scene_of(step.image), how);
         smx_comparison errors = SMX_COMPARISON_INIT;
         check(smx_image_compare(rendering.image.get(), reference_.get(), &errors));
         keep(step.image, rendering, errors);

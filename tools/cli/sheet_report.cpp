@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
+#include <tuple>
 
 #include "exposure.h"
 #include "sheet_job.h"
@@ -17,38 +18,40 @@ using Json = nlohmann::ordered_json;
 
 constexpr int schema_version = 1;
 
-// The errors of all filtered images of one fit.
+// The errors of all filtered images of one fit by one widening order.
 struct FitSummary {
     smx_model model;
     std::uint32_t lobes;
+    std::int32_t order;
     std::size_t images = 0;
     double mean_relrmse = 0.0, mean_bias = 0.0;
     const SheetEntry *worst = nullptr;
 };
 
-FitSummary summarise(const std::vector<SheetEntry> &entries, const SheetFit &fit) {
-    FitSummary summary = {fit.model, fit.lobes};
-    for (const SheetEntry &entry : entries) {
-        if (!entry.errors || entry.image.lobes != fit.lobes || entry.image.model != fit.model) continue;
+auto key_of(const SheetImage &image) { return std::tuple(image.model, image.lobes, image.widening_order); }
+
+std::vector<FitSummary> summaries(const SheetResult &result) {
+    std::map<std::tuple<smx_model, std::uint32_t, std::int32_t>, FitSummary> by_key;
+    for (const SheetEntry &entry : result.entries) {
+        if (!entry.errors) continue;
+        const SheetImage &image = entry.image;
+        FitSummary &summary =
+            by_key.try_emplace(key_of(image), FitSummary{image.model, image.lobes, image.widening_order}).first->second;
         ++summary.images;
         summary.mean_relrmse += entry.errors->relrmse;
         summary.mean_bias += entry.errors->bias;
         if (!summary.worst || entry.errors->relrmse > summary.worst->errors->relrmse) summary.worst = &entry;
     }
-    const double count = std::max(1.0, static_cast<double>(summary.images));
-    summary.mean_relrmse /= count;
-    summary.mean_bias /= count;
-    return summary;
-}
-
-std::vector<FitSummary> summaries(const SheetResult &result) {
     std::vector<FitSummary> all;
-    for (const SheetFit &fit : result.fits) all.push_back(summarise(result.entries, fit));
-    std::sort(all.begin(), all.end(), [](const FitSummary &a, const FitSummary &b) {
-        return std::pair(a.model, a.lobes) < std::pair(b.model, b.lobes);
-    });
+    for (auto &[key, summary] : by_key) {
+        summary.mean_relrmse /= static_cast<double>(summary.images);
+        summary.mean_bias /= static_cast<double>(summary.images);
+        all.push_back(summary);
+    }
     return all;
 }
+
+Json order_json(std::int32_t order) { return order == SMX_WIDENING_AUTO ? Json("auto") : Json(order); }
 
 const char *integrator_of(Role role) {
     switch (role) {
@@ -71,6 +74,7 @@ Json image_json(const SheetEntry &entry) {
     json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
     json["lobes"] = filtered ? Json(image.lobes) : Json();
     json["model"] = filtered ? Json(word_for(image.model, models)) : Json();
+    json["widening_order"] = filtered ? order_json(image.widening_order) : Json();
     const bool reference = image.role == Role::reference;
     json["spp"] = reference ? Json(entry.report.spp) : Json();
     json["standard_error"] =
@@ -101,11 +105,18 @@ Json summary_json(const SheetResult &result) {
     for (const FitSummary &summary : summaries(result))
         json.push_back({{"model", word_for(summary.model, models)},
                         {"lobes", summary.lobes},
+                        {"widening_order", order_json(summary.order)},
                         {"images", summary.images},
                         {"mean_relrmse", summary.mean_relrmse},
                         {"mean_bias", summary.mean_bias},
                         {"worst_relrmse", summary.worst->errors->relrmse},
                         {"worst_image", to_string(summary.worst->image.id)}});
+    return json;
+}
+
+Json orders_json(const std::vector<std::int32_t> &orders) {
+    Json json = Json::array();
+    for (const std::int32_t order : orders) json.push_back(order_json(order));
     return json;
 }
 
@@ -115,6 +126,7 @@ Json settings_json(const SheetJob &job, const SheetResult &result) {
             {"resolution", {flags.resolution.width, flags.resolution.height}},
             {"radii", job.radii},
             {"lobes", job.lobes},
+            {"per_lobe_orders", orders_json(job.per_lobe_orders())},
             {"spp", flags.target_error > 0.0 ? Json() : Json(flags.spp)},
             {"target_error", flags.target_error > 0.0 ? Json(flags.target_error) : Json()},
             {"sampler", word_for(flags.sampler, samplers)},
@@ -159,11 +171,12 @@ void print_summary(const SheetJob &job, const SheetResult &result) {
               << " x " << flags.resolution.height << ", references of " << sampling_text(flags) << ", in " << job.out
               << "\n\n";
 
-    std::vector<TextRow> rows = {{"model", "N", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};
+    std::vector<TextRow> rows = {{"model", "N", "order", "images", "mean relRMSE", "worst relRMSE", "in", "mean bias"}};
     for (const FitSummary &summary : summaries(result))
-        rows.push_back({word_for(summary.model, models), std::to_string(summary.lobes), std::to_string(summary.images),
-                        fixed(summary.mean_relrmse, 4), fixed(summary.worst->errors->relrmse, 4),
-                        to_string(summary.worst->image.id), fixed(summary.mean_bias, 4)});
+        rows.push_back({word_for(summary.model, models), std::to_string(summary.lobes), widening_text(summary.order),
+                        std::to_string(summary.images), fixed(summary.mean_relrmse, 4),
+                        fixed(summary.worst->errors->relrmse, 4), to_string(summary.worst->image.id),
+                        fixed(summary.mean_bias, 4)});
     if (rows.size() > 1) {
         print_table(std::cout, rows);
         std::cout << '\n';
