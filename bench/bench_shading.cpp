@@ -5,47 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "bench.h"
 #include "shading.h"
 
 namespace {
 
-// `count` distinct lobes, alphas 0.01 to 1.
-ShadingCase shading_case(bool per_lobe, int count) {
-    ShadingCase what{per_lobe, {}};
-    const float weight = per_lobe ? 1.0f : 1.0f / static_cast<float>(count);
-    for (int k = 0; k < count; ++k)
-        what.lobes.push_back({weight, 0.01f + 0.99f * static_cast<float>(k) / 16.0f, {0.9f, 0.6f, 0.3f}});
-    return what;
-}
-
-smx_material make_material(const ShadingCase &what) {
-    std::vector<smx_lobe> lobes;
-    std::vector<double> fresnel; // [sets][rgb][2 knots]: flat
-    for (const ShadingLobe &lobe : what.lobes) {
-        lobes.push_back({1.0, lobe.alpha});
-        if (what.per_lobe || fresnel.empty())
-            for (float f : lobe.fresnel) fresnel.insert(fresnel.end(), 2, f);
-    }
-    smx_material_desc desc = SMX_MATERIAL_DESC_INIT;
-    desc.model = what.per_lobe ? SMX_MODEL_PER_LOBE : SMX_MODEL_SHARED;
-    desc.lobes = lobes.data();
-    desc.lobe_count = lobes.size();
-    desc.knots = 2;
-    desc.fresnel = fresnel.data();
-    smx_material material = nullptr;
-    check(smx_material_create(&desc, &material));
-    return material;
-}
-
 // Renders and returns the report; the picture, if asked for.
 smx_render_report render(smx_material material, smx_grade grade, std::vector<float> *rgba = nullptr) {
-    smx_scene scene = SMX_SCENE_INIT;
-    scene.width = scene.height = shading_side;
-    scene.light_phi = std::numbers::pi / 2;
-    scene.displacement = {shading_alpha_x, shading_alpha_y, 0.0, 0.0, 0.0};
+    const smx_scene scene = shading_scene();
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
     options.grade = grade;
     smx_image image = nullptr;
@@ -79,6 +47,15 @@ double baseline_seconds(ShadingResult (*shade)(const ShadingCase &), const Shadi
     return least;
 }
 
+ShadingResult shade_builtin(const ShadingCase &what) {
+    static ShadingBuiltin builtin = [] {
+        smx_device_info device = SMX_DEVICE_INFO_INIT;
+        check(smx_context_get_info(shared_context(), &device));
+        return ShadingBuiltin(device.index);
+    }();
+    return builtin.shade(what);
+}
+
 struct Baselines {
     double scalar, builtin; // seconds
 };
@@ -94,7 +71,8 @@ const Baselines &baselines(const ShadingCase &what, const std::vector<float> &wa
 
 void shade(benchmark::State &state, bool per_lobe, smx_grade grade) {
     const ShadingCase what = shading_case(per_lobe, static_cast<int>(state.range(0)));
-    smx_material material = make_material(what);
+    smx_material material = nullptr;
+    check(make_material(what, &material));
     std::vector<float> picture;
     const auto evaluations = static_cast<double>(render(material, SMX_GRADE_PRECISE, &picture).evaluations);
     const Baselines &base = baselines(what, picture);

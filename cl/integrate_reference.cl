@@ -16,57 +16,104 @@
 #include "masking.clh"
 #include "sphere.clh"
 
-inline Pair pair_of_pixel(const SphereView *view, int column, int row) {
-    SpherePoint s = sphere_point(view, (intW)column, row);
-    real3 i =
-        (real3)(lane_0(SPHERE_LOCAL_X(s, view->wi_x, view->wi_y)), lane_0(SPHERE_LOCAL_Y(s, view->wi_x, view->wi_y)),
-                lane_0(SPHERE_LOCAL_Z(s, view->wi_x, view->wi_y)));
-    real3 h =
-        (real3)(lane_0(SPHERE_LOCAL_X(s, view->wh_x, view->wh_y)), lane_0(SPHERE_LOCAL_Y(s, view->wh_x, view->wh_y)),
-                lane_0(SPHERE_LOCAL_Z(s, view->wh_x, view->wh_y)));
-    Pair p = make_pair(i, h, view->wi_x * view->wh_x + view->wi_y * view->wh_y);
-    p.lit = lane_0(selectW((realW)0.0f, (realW)i.z, s.inside)) > 0.0f;
-    return p;
+// G2_X / p_o of W pairs. 0 where a direction is not above the mean plane.
+inline realW masking_factor(const Displacement *x, realW ix, realW iy, realW iz, realW ox, realW oy, realW oz,
+                            intW visible) {
+    realW p_i = mean_plane(x, ix, iy, iz), p_o = mean_plane(x, ox, oy, oz);
+    visible = visible && (p_i > (realW)0.0f) && (p_o > (realW)0.0f);
+
+    // Lanes that are not visible work on harmless numbers and are dropped at the end.
+    realW safe_i = selectW((realW)1.0f, p_i, visible), safe_o = selectW((realW)1.0f, p_o, visible);
+    realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma(safe_i, displacement_s2(x, ix, iy)),
+                              beckmann_sigma(safe_o, displacement_s2(x, ox, oy)));
+    return selectW((realW)0.0f, factor, visible);
 }
 
-// Both directions must be above the surface.
-inline Pair pair_of_directions(real3 i, real3 o) {
-    real3 sum = i + o;
-    real twice_cos_d = length(sum);
-    Pair p = make_pair(i, sum / twice_cos_d, 0.5f * twice_cos_d);
-    p.lit = 1;
-    return p;
+// W pairs before their frames are made.
+typedef struct {
+    realW ix, iy, iz, hx, hy, hz, cos_d; // as in Pair
+    realW theta_d;                       // in rows of the whole table
+    realW factor;
+    intW lit, there;
+} PairsW;
+
+// Stores the lanes from `at` that lie before `end`.
+inline void store_pairs(__global Pair *pairs, int at, int end, const PairsW *from) {
+    real v[9][W];
+    integer lit[W], there[W];
+    vstoreW(from->ix, 0, v[0]);
+    vstoreW(from->iy, 0, v[1]);
+    vstoreW(from->iz, 0, v[2]);
+    vstoreW(from->hx, 0, v[3]);
+    vstoreW(from->hy, 0, v[4]);
+    vstoreW(from->hz, 0, v[5]);
+    vstoreW(from->cos_d, 0, v[6]);
+    vstoreW(from->theta_d, 0, v[7]);
+    vstoreW(from->factor, 0, v[8]);
+    vstoreW(from->lit, 0, lit);
+    vstoreW(from->there, 0, there);
+    for (int k = 0; k < W && at + k < end; ++k) {
+        Pair p = make_pair((real3)(v[0][k], v[1][k], v[2][k]), (real3)(v[3][k], v[4][k], v[5][k]), v[6][k]);
+        cut_table(&p, v[7][k]);
+        p.factor = v[8][k];
+        p.lit = lit[k] != 0;
+        p.there = there[k] != 0;
+        pairs[at + k] = p;
+    }
 }
 
-// Adds `size` facets to the sums of `items` pixels from the first of row first_row. `theta_d` is in rows of the table.
-__kernel void integrate_sphere(__global float4 *sums, __global float4 *rests, int items, int first_row, Displacement x,
-                               __global const float4 *table, __constant float *density, __global const float *facets,
-                               int stride, int size, SphereView view, real theta_d) {
+// Work-item (c, r) prepares pixels W c ... W c + W - 1 of row first_row + r. `theta_d` is the image's, in rows.
+__kernel void prepare_sphere(__global Pair *pairs, int first_row, Displacement x, SphereView view, real theta_d) {
+    int first_column = W * (int)get_global_id(0), row = (int)get_global_id(1);
+    SpherePoint s = sphere_point(&view, first_column + laneW, first_row + row);
+    PairsW p;
+    p.ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y);
+    p.iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
+    p.iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
+    p.hx = SPHERE_LOCAL_X(s, view.wh_x, view.wh_y);
+    p.hy = SPHERE_LOCAL_Y(s, view.wh_x, view.wh_y);
+    p.hz = SPHERE_LOCAL_Z(s, view.wh_x, view.wh_y);
+    p.cos_d = (realW)(view.wi_x * view.wh_x + view.wi_y * view.wh_y);
+    p.theta_d = (realW)theta_d;
+    p.there = s.inside;
+    p.lit = s.inside && (p.iz > (realW)0.0f);
+    p.factor = masking_factor(&x, p.ix, p.iy, p.iz, s.ox, s.oy, s.oz, p.lit);
+    store_pairs(pairs, row * view.width + first_column, (row + 1) * view.width, &p);
+}
+
+// Work-item c prepares pairs W c ... W c + W - 1 of `items` from number `first`. wi and wo are [3][stride], W numbers
+// longer than the pairs.
+__kernel void prepare_pairs(__global Pair *pairs, int first, Displacement x, int items, __global const float *wi,
+                            __global const float *wo, int stride) {
+    int item = W * (int)get_global_id(0), at = first + item;
+    if (item >= items) return;
+    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
+          oz = load_floatsW(0, wo + 2 * stride + at);
+    PairsW p;
+    p.ix = load_floatsW(0, wi + at);
+    p.iy = load_floatsW(0, wi + stride + at);
+    p.iz = load_floatsW(0, wi + 2 * stride + at);
+    realW hx = p.ix + ox, hy = p.iy + oy, hz = p.iz + oz;
+    p.there = p.lit = (p.iz > (realW)0.0f) && (oz > (realW)0.0f);
+    realW twice_cos_d = selectW((realW)1.0f, sqrt(hx * hx + hy * hy + hz * hz), p.lit);
+    p.hx = hx / twice_cos_d;
+    p.hy = hy / twice_cos_d;
+    p.hz = hz / twice_cos_d;
+    p.cos_d = 0.5f * twice_cos_d;
+    p.theta_d = difference_angle(p.ix, p.iy, p.iz, ox, oy, oz) * (float)TABLE_THETA_D;
+    p.factor = masking_factor(&x, p.ix, p.iy, p.iz, ox, oy, oz, p.lit);
+    store_pairs(pairs, item, items, &p);
+}
+
+// Adds `size` facets to the sums of `items` pairs.
+__kernel void integrate_reference(__global float4 *sums, __global float4 *rests, __global const Pair *pairs, int items,
+                                  Displacement x, __global const float4 *table, __constant float *density,
+                                  __global const float *facets, int stride, int size) {
     int item = (int)get_global_id(0);
-    if (item >= items) return;
-    Pair p = pair_of_pixel(&view, item % view.width, first_row + item / view.width);
-    if (!p.lit) return;
-    cut_table(&p, table, theta_d);
-    add_facets(sums + item, rests + item, &p, &x, density, facets, stride, size);
+    if (item >= items || !pairs[item].lit) return;
+    Pair p = pairs[item];
+    add_facets(sums + item, rests + item, &p, &x, table, density, facets, stride, size);
 }
-
-#if TABLE_WHOLE
-// The same for `items` pairs from number `first`; wi and wo are [3][pair_stride].
-__kernel void integrate_pairs(__global float4 *sums, __global float4 *rests, int items, int first, Displacement x,
-                              __global const float4 *table, __constant float *density, __global const float *facets,
-                              int stride, int size, __global const float *wi, __global const float *wo,
-                              int pair_stride) {
-    int item = (int)get_global_id(0), at = first + item;
-    if (item >= items) return;
-    real3 i = (real3)(wi[at], wi[pair_stride + at], wi[2 * pair_stride + at]);
-    real3 o = (real3)(wo[at], wo[pair_stride + at], wo[2 * pair_stride + at]);
-    if (!(i.z > 0.0f && o.z > 0.0f)) return;
-    Pair p = pair_of_directions(i, o);
-    realW angle = difference_angle((realW)i.x, (realW)i.y, (realW)i.z, (realW)o.x, (realW)o.y, (realW)o.z);
-    cut_table(&p, table, lane_0(angle) * (float)TABLE_THETA_D);
-    add_facets(sums + item, rests + item, &p, &x, density, facets, stride, size);
-}
-#endif
 
 // Takes a finished scramble, its `samples` summed, into the running mean and squared deviations over scrambles (Welford
 // 1962), as number `scramble` from 1, and clears the sums.
@@ -84,60 +131,16 @@ __kernel void fold_scramble(__global float4 *sums, __global float4 *rests, __glo
     rests[item] = (float4)(0.0f);
 }
 
-// What the mean of W pairs is to be multiplied with, G2_X / p_o. 0 where a direction is not above the mean plane.
-inline realW masking_factor(const Displacement *x, realW ix, realW iy, realW iz, realW ox, realW oy, realW oz,
-                            intW visible) {
-    realW p_i = mean_plane(x, ix, iy, iz), p_o = mean_plane(x, ox, oy, oz);
-    visible = visible && (p_i > (realW)0.0f) && (p_o > (realW)0.0f);
-
-    // Lanes that are not visible work on harmless numbers and are dropped at the end.
-    realW safe_i = selectW((realW)1.0f, p_i, visible), safe_o = selectW((realW)1.0f, p_o, visible);
-    realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma(safe_i, displacement_s2(x, ix, iy)),
-                              beckmann_sigma(safe_o, displacement_s2(x, ox, oy)));
-    return selectW((realW)0.0f, factor, visible);
-}
-
-// Writes W results from `at`, up to `end`, and their standard errors from `scrambles` independent estimates (0 where
-// there is one). Where not `inside`, nothing is there, alpha 0.
-inline void store_results(__global float4 *rgba, __global float4 *errors, __global const float4 *means,
-                          __global const float4 *deviations, int at, int end, realW factor, intW inside,
-                          int scrambles) {
-    float scales[W];
-    integer in[W];
-    store_floatsW(factor, 0, scales);
-    vstoreW(inside, 0, in);
-    float inv_pairs = scrambles > 1 ? 1.0f / ((float)scrambles * (float)(scrambles - 1)) : 0.0f;
-    for (int lane = 0; lane < W && at + lane < end; ++lane) {
-        float4 mean = means[at + lane], deviation = deviations[at + lane];
-        rgba[at + lane] = in[lane] ? (float4)(mean.xyz * scales[lane], 1.0f) : (float4)(0.0f);
-        errors[at + lane] = in[lane] ? (float4)(sqrt(deviation.xyz * inv_pairs) * scales[lane], 1.0f) : (float4)(0.0f);
-    }
-}
-
-// Work-item (c, r) finishes pixels W c ... W c + W - 1 of row first_row + r.
-__kernel void finish_sphere(__global float4 *rgba, __global float4 *errors, __global const float4 *means,
-                            __global const float4 *deviations, int first_row, Displacement x, int scrambles,
-                            SphereView view) {
-    int first_column = W * (int)get_global_id(0), row = (int)get_global_id(1);
-    SpherePoint s = sphere_point(&view, first_column + laneW, first_row + row);
-    realW ix = SPHERE_LOCAL_X(s, view.wi_x, view.wi_y), iy = SPHERE_LOCAL_Y(s, view.wi_x, view.wi_y);
-    realW iz = SPHERE_LOCAL_Z(s, view.wi_x, view.wi_y);
-    realW factor = masking_factor(&x, ix, iy, iz, s.ox, s.oy, s.oz, s.inside && (iz > (realW)0.0f));
-    store_results(rgba, errors, means, deviations, row * view.width + first_column, (row + 1) * view.width, factor,
-                  s.inside, scrambles);
-}
-
-// Work-item c finishes pairs W c ... W c + W - 1 of `items` from number `first`; pair_stride is a multiple of W.
-__kernel void finish_pairs(__global float4 *rgba, __global float4 *errors, __global const float4 *means,
-                           __global const float4 *deviations, int first, Displacement x, int scrambles, int items,
-                           __global const float *wi, __global const float *wo, int pair_stride) {
-    int item = W * (int)get_global_id(0), at = first + item;
+// Writes means times G2_X / p_o, and their standard errors from `scrambles` independent estimates (0 where there is
+// one). Alpha is 0, and nothing there, off the sphere.
+__kernel void finish_reference(__global float4 *rgba, __global float4 *errors, __global const float4 *means,
+                               __global const float4 *deviations, __global const Pair *pairs, int items,
+                               int scrambles) {
+    int item = (int)get_global_id(0);
     if (item >= items) return;
-    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + pair_stride + at),
-          iz = load_floatsW(0, wi + 2 * pair_stride + at);
-    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + pair_stride + at),
-          oz = load_floatsW(0, wo + 2 * pair_stride + at);
-    intW above = (iz > (realW)0.0f) && (oz > (realW)0.0f);
-    store_results(rgba, errors, means, deviations, item, items, masking_factor(&x, ix, iy, iz, ox, oy, oz, above),
-                  above, scrambles);
+    float factor = (float)pairs[item].factor;
+    float inv_pairs = scrambles > 1 ? 1.0f / ((float)scrambles * (float)(scrambles - 1)) : 0.0f;
+    float3 mean = means[item].xyz * factor, error = sqrt(deviations[item].xyz * inv_pairs) * factor;
+    rgba[item] = pairs[item].there ? (float4)(mean, 1.0f) : (float4)(0.0f);
+    errors[item] = pairs[item].there ? (float4)(error, 1.0f) : (float4)(0.0f);
 }

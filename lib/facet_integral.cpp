@@ -18,6 +18,7 @@ constexpr const char *kernel_file = "integrate_reference.cl", *drawing_file = "d
 constexpr std::uint32_t summation_block = 256;
 constexpr std::uint64_t launch_evaluations = 1u << 26;
 constexpr std::size_t facet_planes = 5; // the most that draw_facets.cl writes
+constexpr std::size_t pair_reals = 21;  // of a Pair in cl/facet_integral.clh
 
 std::uint32_t facets_per_launch(std::size_t items, const SamplingPlan &plan) {
     const std::uint64_t wanted = launch_evaluations / items / summation_block * summation_block;
@@ -39,6 +40,10 @@ std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
 template <typename Real>
 Real table_row(const Scene &scene) {
     return static_cast<Real>(theta_d(scene) / (std::numbers::pi / 2) * Brdf::theta_d_count);
+}
+
+cl::Buffer buffer_of_reals(const Context &device, Grade grade, std::size_t count) {
+    return with_real(grade, [&](auto real) { return empty_buffer<decltype(real)>(device, count); });
 }
 
 cl::Buffer plane_buffer(const Context &device, const std::vector<float> *planes) {
@@ -72,6 +77,7 @@ FacetIntegral::FacetIntegral(Context &device, const IntegralTask &task, std::uin
       per_launch_(facets_per_launch(most_items_, task.plan)),
       stride_(static_cast<std::uint32_t>(round_up(per_launch_, device.width()))),
       facets_(empty_buffer<float>(device, facet_planes * stride_)),
+      pairs_(buffer_of_reals(device, task.grade, pair_reals * most_items_)),
       table_(buffer_from(device, *task.table)),
       lobes_(buffer_from(device, cumulated(*task.proposal))),
       density_(buffer_from(device, proposal_table(*task.proposal))),
@@ -89,7 +95,7 @@ FacetIntegral::FacetIntegral(Context &device, const IntegralTask &task, std::uin
                              {"TABLE_WHOLE", task.whole_table}};
     for (const Pass &pass : task.plan.passes)
         passes_.push_back({drawing_kernel(pass), integrating_kernel(pass, defines)});
-    make_closing_kernels(defines);
+    make_outer_kernels(defines);
     // Lanes past the last facet are computed and dropped, so what they read must be numbers.
     device.queue().enqueueFillBuffer(facets_, 0.0f, 0, facet_planes * stride_ * sizeof(float));
     device.queue().enqueueFillBuffer(sums_, 0.0f, 0, most_items_ * sizeof(cl_float4));
@@ -115,30 +121,35 @@ cl::Kernel FacetIntegral::drawing_kernel(const Pass &pass) {
     return kernel;
 }
 
-cl::Kernel FacetIntegral::integrating_kernel(const Pass &pass, const Defines &defines) {
-    Defines all = defines;
-    all["TECHNIQUE"] = static_cast<int>(pass.technique);
-    cl::Kernel kernel = device_.kernel(kernel_file, task_.scene ? "integrate_sphere" : "integrate_pairs", all);
+cl::Kernel FacetIntegral::integrating_kernel(const Pass &pass, Defines defines) {
+    defines["TECHNIQUE"] = static_cast<int>(pass.technique);
+    cl::Kernel kernel = device_.kernel(kernel_file, "integrate_reference", defines);
     kernel.setArg(0, sums_);
     kernel.setArg(1, rests_);
+    kernel.setArg(2, pairs_);
     set_arg(kernel, 4, task_.displacement, task_.grade);
     kernel.setArg(5, table_);
     kernel.setArg(6, density_);
     kernel.setArg(7, facets_);
     kernel.setArg(8, static_cast<cl_int>(stride_));
-    if (task_.scene) {
-        set_arg(kernel, 10, *task_.scene, task_.grade);
-        with_real(task_.grade, [&](auto real) { kernel.setArg(11, table_row<decltype(real)>(*task_.scene)); });
-    } else {
-        kernel.setArg(10, wi_);
-        kernel.setArg(11, wo_);
-        kernel.setArg(12, static_cast<cl_int>(task_.pairs->stride));
-    }
     return kernel;
 }
 
-void FacetIntegral::make_closing_kernels(Defines defines) {
+// What comes before and after the samples.
+void FacetIntegral::make_outer_kernels(Defines defines) {
     defines["TECHNIQUE"] = static_cast<int>(task_.plan.passes[0].technique); // any that is built already
+    prepare_ = device_.kernel(kernel_file, task_.scene ? "prepare_sphere" : "prepare_pairs", defines);
+    prepare_.setArg(0, pairs_);
+    set_arg(prepare_, 2, task_.displacement, task_.grade);
+    if (task_.scene) {
+        set_arg(prepare_, 3, *task_.scene, task_.grade);
+        with_real(task_.grade, [&](auto real) { prepare_.setArg(4, table_row<decltype(real)>(*task_.scene)); });
+    } else {
+        prepare_.setArg(4, wi_);
+        prepare_.setArg(5, wo_);
+        prepare_.setArg(6, static_cast<cl_int>(task_.pairs->stride));
+    }
+
     fold_ = device_.kernel(kernel_file, "fold_scramble", defines);
     fold_.setArg(0, sums_);
     fold_.setArg(1, rests_);
@@ -146,30 +157,33 @@ void FacetIntegral::make_closing_kernels(Defines defines) {
     fold_.setArg(3, deviations_);
     fold_.setArg(4, 1.0f / static_cast<float>(task_.plan.samples_per_scramble()));
 
-    finish_ = device_.kernel(kernel_file, task_.scene ? "finish_sphere" : "finish_pairs", defines);
+    finish_ = device_.kernel(kernel_file, "finish_reference", defines);
     finish_.setArg(0, rgba_);
     finish_.setArg(1, errors_);
     finish_.setArg(2, means_);
     finish_.setArg(3, deviations_);
-    set_arg(finish_, 5, task_.displacement, task_.grade);
+    finish_.setArg(4, pairs_);
     finish_.setArg(6, static_cast<cl_int>(task_.plan.scrambles));
-    if (task_.scene) {
-        set_arg(finish_, 7, *task_.scene, task_.grade);
-    } else {
-        finish_.setArg(8, wi_);
-        finish_.setArg(9, wo_);
-        finish_.setArg(10, static_cast<cl_int>(task_.pairs->stride));
-    }
 }
 
 void FacetIntegral::run(const cl::Kernel &kernel, std::size_t columns, std::size_t rows) {
     seconds_ += launch(device_, kernel, columns, rows, task_.tiling.work_group);
 }
 
-void FacetIntegral::run_pass(std::size_t index, std::uint32_t scramble, const Tile &tile,
+void FacetIntegral::prepare(const Tile &tile) {
+    const std::size_t lanes = device_.width();
+    prepare_.setArg(1, static_cast<cl_int>(tile.first_row));
+    if (task_.scene) {
+        run(prepare_, round_up(task_.row_items, lanes) / lanes, tile.rows);
+    } else {
+        prepare_.setArg(3, static_cast<cl_int>(tile.rows));
+        run(prepare_, round_up(tile.rows, lanes) / lanes);
+    }
+}
+
+void FacetIntegral::run_pass(std::size_t index, std::uint32_t scramble, std::size_t items,
                              const std::function<void(std::uint32_t)> &done) {
     const std::uint32_t samples = task_.plan.passes[index].samples;
-    const std::size_t items = std::size_t{tile.rows} * task_.row_items;
     PassKernels &kernels = passes_[index];
     for (std::uint32_t first = 0; first < samples; first += per_launch_) {
         const std::uint32_t size = std::min(per_launch_, samples - first);
@@ -177,31 +191,21 @@ void FacetIntegral::run_pass(std::size_t index, std::uint32_t scramble, const Ti
         kernels.draw.setArg(3, static_cast<cl_uint>(size));
         kernels.draw.setArg(4, static_cast<cl_uint>(pass_seed(task_.seed, scramble, index)));
         run(kernels.draw, size);
-        kernels.integrate.setArg(2, static_cast<cl_int>(items));
-        kernels.integrate.setArg(3, static_cast<cl_int>(tile.first_row));
+        kernels.integrate.setArg(3, static_cast<cl_int>(items));
         kernels.integrate.setArg(9, static_cast<cl_int>(size));
         run(kernels.integrate, items);
         done(size);
     }
 }
 
-void FacetIntegral::finish(const Tile &tile) {
-    finish_.setArg(4, static_cast<cl_int>(tile.first_row));
-    if (task_.pairs) finish_.setArg(7, static_cast<cl_int>(tile.rows));
-    const std::size_t lanes = device_.width();
-    if (task_.scene)
-        run(finish_, round_up(task_.row_items, lanes) / lanes, tile.rows);
-    else
-        run(finish_, round_up(tile.rows, lanes) / lanes);
-}
-
 double FacetIntegral::integrate(const Tile &tile, const TileRows &to, RowErrors &seen, const Step &step) {
     const std::size_t row_items = task_.row_items, items = tile.rows * row_items;
     const double before = seconds_;
+    prepare(tile);
     std::uint64_t drawn = 0;
     for (std::uint32_t scramble = 0; scramble < task_.plan.scrambles; ++scramble) {
         for (std::size_t pass = 0; pass < passes_.size(); ++pass)
-            run_pass(pass, scramble, tile, [&](std::uint32_t size) {
+            run_pass(pass, scramble, items, [&](std::uint32_t size) {
                 drawn += size;
                 step(static_cast<double>(drawn) / task_.plan.samples());
             });
@@ -209,7 +213,8 @@ double FacetIntegral::integrate(const Tile &tile, const TileRows &to, RowErrors 
         fold_.setArg(6, static_cast<cl_int>(scramble + 1));
         run(fold_, items);
     }
-    finish(tile);
+    finish_.setArg(5, static_cast<cl_int>(items));
+    run(finish_, items);
 
     unkept_errors_.resize(to.errors ? 0 : 4 * items);
     float *errors = to.errors ? to.errors : unkept_errors_.data();

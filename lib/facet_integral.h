@@ -59,20 +59,20 @@ class FacetIntegral {
         cl::Kernel draw, integrate;
     };
     cl::Kernel drawing_kernel(const Pass &pass);
-    cl::Kernel integrating_kernel(const Pass &pass, const Defines &defines);
-    void make_closing_kernels(Defines defines);
-    void run_pass(std::size_t index, std::uint32_t scramble, const Tile &tile,
+    cl::Kernel integrating_kernel(const Pass &pass, Defines defines);
+    void make_outer_kernels(Defines defines);
+    void prepare(const Tile &tile);
+    void run_pass(std::size_t index, std::uint32_t scramble, std::size_t items,
                   const std::function<void(std::uint32_t)> &done);
-    void finish(const Tile &tile);
     void run(const cl::Kernel &kernel, std::size_t columns, std::size_t rows = 1);
 
     Context &device_;
     const IntegralTask &task_;
     std::size_t most_items_;
     std::uint32_t per_launch_, stride_;
-    cl::Buffer facets_, table_, lobes_, density_, sums_, rests_, means_, deviations_, rgba_, errors_, wi_, wo_;
+    cl::Buffer facets_, pairs_, table_, lobes_, density_, sums_, rests_, means_, deviations_, rgba_, errors_, wi_, wo_;
     std::vector<PassKernels> passes_;
-    cl::Kernel fold_, finish_;
+    cl::Kernel prepare_, fold_, finish_;
     std::vector<float> unkept_errors_;
     double seconds_ = 0.0;
 };

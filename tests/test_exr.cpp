@@ -128,6 +128,24 @@ TEST(Exr, ForeignFilesAreRead) {
     }
 }
 
+// Standard errors are read where all three are, with the pixel's own alpha.
+TEST(Exr, ErrorsAreReadWhole) {
+    const test::TempDir dir;
+    write_foreign(dir / "some.exr", {"R", "G", "B", "A", "error.R", "error.G"});
+    write_foreign(dir / "all.exr", {"R", "G", "B", "A", "error.R", "error.G", "error.B"});
+    test::Image some, all, again;
+    ASSERT_SMX_OK(smx_image_read_exr((dir / "some.exr").c_str(), some.out()));
+    EXPECT_EQ(smx_image_errors(some), nullptr);
+    ASSERT_SMX_OK(smx_image_read_exr((dir / "all.exr").c_str(), all.out()));
+    ASSERT_NE(smx_image_errors(all), nullptr);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(smx_image_errors(all)[4 * (5 * 2 + 4) + k], 0.5f);
+    ASSERT_SMX_OK(smx_image_write_exr(all, (dir / "again.exr").c_str()));
+    ASSERT_SMX_OK(smx_image_read_exr((dir / "again.exr").c_str(), again.out()));
+    ASSERT_NE(smx_image_errors(again), nullptr);
+    EXPECT_EQ(std::memcmp(smx_image_errors(all), smx_image_errors(again), 15 * 4 * sizeof(float)), 0);
+    EXPECT_EQ(smx_image_errors(nullptr), nullptr);
+}
+
 TEST(Exr, WrongFilesAreRefused) {
     const test::TempDir dir;
     write_foreign(dir / "no-blue.exr", {"R", "G", "A"});

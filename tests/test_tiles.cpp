@@ -2,6 +2,7 @@
 // fails or is cancelled leaves nothing behind; an image that goes to a file is the one that would be in memory.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <thread>
@@ -169,15 +170,18 @@ TEST(Tiles, TilingsAndWorkGroupsGiveTheSameBits) {
 TEST(Tiles, AreTakenInTheirOrderAndNotFarAhead) {
     smx::Context context("0,0,0", 0);
     std::atomic<std::uint32_t> begun{0}, taken{0};
+    std::array<std::atomic<bool>, 40> done{};
     std::uint32_t most_ahead = 0;
     smx::TileJob job = job_of(40, [&](const smx::Tile &tile, const smx::Step &) {
         ++begun;
         if (tile.first_row % 3 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        done[tile.first_row] = true;
         return 1.0;
     });
     job.ahead = 4;
     job.take = [&](const smx::Tile &tile) {
         EXPECT_EQ(tile.first_row, taken);
+        EXPECT_TRUE(done[tile.first_row]);
         most_ahead = std::max(most_ahead, begun - taken);
         ++taken;
     };

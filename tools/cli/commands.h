@@ -15,5 +15,6 @@ void add_render(CLI::App &app);
 void add_sheet(CLI::App &app);
 void add_budget(CLI::App &app);
 void add_compare(CLI::App &app);
+void add_bench(CLI::App &app);
 
 } // namespace slopemix::cli

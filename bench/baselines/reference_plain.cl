@@ -25,8 +25,9 @@ inline float4 plain_lookup(__global const float4 *table, float theta_h, float th
     return value;
 }
 
-// values: [samples][side * side]; table: [90][90][180] of RGB and a zero; isotropic X; the light stands at phi in the plane z = 0.
-__kernel void plain_reference(__global float4 *values, int side, float light_phi, float alpha,
+// values: [samples][side * side]; table: [90][90][180] of RGB and a zero; isotropic X; the light stands at phi in the
+// plane z = 0.
+__kernel void reference_plain(__global float4 *values, int side, float light_phi, float alpha,
                               __global const float4 *table, uint seed) {
     int pixel = (int)get_global_id(0), sample = (int)get_global_id(1);
     float x = (2 * (pixel % side) + 1 - side) / (float)side, z = (side - 1 - 2 * (pixel / side)) / (float)side;

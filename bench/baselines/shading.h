@@ -5,6 +5,9 @@
 
 #include <vector>
 
+#include "plain_kernel.h"
+#include "slopemix.h"
+
 constexpr int shading_side = 1024;
 constexpr float shading_alpha_x = 0.25f, shading_alpha_y = 0.25f; // of the displaced surface
 
@@ -19,6 +22,13 @@ struct ShadingCase {
     std::vector<ShadingLobe> lobes;
 };
 
+// `count` distinct lobes, alphas 0.01 to 1.
+ShadingCase shading_case(bool per_lobe, int count);
+
+// The same as the library takes it.
+smx_scene shading_scene();
+smx_status make_material(const ShadingCase &what, smx_material *material);
+
 // A baseline's time and picture: seconds for the whole image, [row][column][rgba].
 struct ShadingResult {
     double seconds;
@@ -28,6 +38,12 @@ struct ShadingResult {
 // The scalar loop on one core: floats, libm, no vectors.
 ShadingResult shade_scalar(const ShadingCase &what);
 
-// bench/shading_builtin.cl on the first device: one work-item per pixel, built-in exp and erf. Time from OpenCL's
-// event.
-ShadingResult shade_builtin(const ShadingCase &what);
+// shading_builtin.cl: one work-item per pixel, built-in exp and erf. Time from OpenCL's event.
+class ShadingBuiltin {
+  public:
+    explicit ShadingBuiltin(unsigned device) : kernel_(device, "shading_builtin") {}
+    ShadingResult shade(const ShadingCase &what);
+
+  private:
+    PlainKernel kernel_;
+};
