@@ -2,6 +2,7 @@
 #include "sheet_entry.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace slopemix::cli {
@@ -10,15 +11,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Without the zeros behind the last lobe.
+Json orders_json(const smx_render_report &report) {
+    const auto is_lobe = [](std::uint8_t order) { return order != 0; };
+    const auto end =
+        std::find_if(std::rbegin(report.widening_orders), std::rend(report.widening_orders), is_lobe).base();
+    return std::vector<std::uint8_t>(std::begin(report.widening_orders), end);
+}
+
 Json report_json(const smx_render_report &report) {
-    Json orders = report.widening_orders;
     return {{"seconds", report.seconds},
             {"kernel_seconds", report.kernel_seconds},
             {"build_seconds", report.build_seconds},
             {"evaluations", report.evaluations},
             {"spp", report.spp},
             {"standard_error", report.standard_error},
-            {"widening_orders", orders},
+            {"widening_orders", orders_json(report)},
             {"unsettled", report.unsettled}};
 }
 
@@ -30,7 +38,8 @@ smx_render_report report_of(const Json &json) {
     json.at("evaluations").get_to(report.evaluations);
     json.at("spp").get_to(report.spp);
     json.at("standard_error").get_to(report.standard_error);
-    json.at("widening_orders").get_to(report.widening_orders);
+    const auto orders = json.at("widening_orders").get<std::vector<std::uint8_t>>();
+    std::copy_n(orders.begin(), std::min(orders.size(), std::size(report.widening_orders)), report.widening_orders);
     json.at("unsettled").get_to(report.unsettled);
     return report;
 }

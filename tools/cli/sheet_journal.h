@@ -16,7 +16,8 @@ class SheetJournal {
 
     // `result` has its material and device. With --resume it receives what earlier runs finished and their times;
     // throws CommandError where that is of other settings, or damaged. An image that is no longer the one that was
-    // finished is left out, and standard error says so. Locks the folder, in which nothing changes yet.
+    // finished is left out, and standard error says so. Locks the folder; what killed runs left half written goes from
+    // it.
     void open(SheetResult &result);
 
     // --resume found the whole sheet.
