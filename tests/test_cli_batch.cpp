@@ -190,11 +190,33 @@ TEST(CliBatch, ResumesAfterAnInterruption) {
                 EXPECT_EQ(test::exists(material(name)), std::count(done.begin(), done.end(), name) == 1) << name;
         }
         const auto time = fs::last_write_time(material("a"));
-        ASSERT_CLI_OK(test::cli(fit_of(dir, tables)));
+        const test::CliResult second = test::cli(fit_of(dir, tables, {"--resume", "--json"}));
+        ASSERT_CLI_OK(second);
         EXPECT_EQ(fs::last_write_time(material("a")), time);
+        const json materials = second.json().at("materials");
+        for (const json &fitted : materials) {
+            const std::string name = fitted.at("name");
+            EXPECT_EQ(fitted.at("up_to_date"), std::count(done.begin(), done.end(), name) == 1) << name;
+        }
         EXPECT_EQ(names_in(rows_in(dir)), names);
         EXPECT_EQ(parse_csv(test::read_file(dir / "out/fits.csv")).size(), names.size() + 1);
     }
+}
+
+// What it leaves alone is what fit leaves alone; it only says so.
+TEST(CliBatch, ResumeFitsWhatIsOfOtherOptions) {
+    const test::TempDir dir;
+    const Arguments tables = make_tables(dir, {"a"});
+    const auto up_to_date = [&](const Arguments &more) {
+        const test::CliResult run = test::cli(fit_of(dir, tables, test::with({"--resume", "--json"}, more)));
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.json().at("materials").at(0).at("up_to_date").get<bool>();
+    };
+    EXPECT_FALSE(up_to_date({}));
+    EXPECT_TRUE(up_to_date({}));
+    EXPECT_FALSE(up_to_date({"--lobes", "3"}));
+    EXPECT_CLI_FAILS(2, "--refit", fit_of(dir, tables, {"--resume", "--refit"}));
+    EXPECT_CLI_FAILS(2, "--resume", {"fit", tables[0], "--compare", tables[0], "--resume"});
 }
 
 TEST(CliBatch, CsvAndJsonSayTheSame) {

@@ -113,7 +113,9 @@ void run(const FitJob &job) {
     cancelled = cancelled || fits.cancelled();
     fits.print();
     const std::size_t failures = fits.report_failures();
-    if (cancelled) throw CommandError("cancelled; the same command goes on from here");
+    if (cancelled)
+        throw CommandError(job.refit ? "cancelled; what was not fitted again is as it was"
+                                     : "cancelled; the same command goes on from here");
     if (failures > 0)
         throw CommandError(std::to_string(failures) + " of " + std::to_string(job.inputs.size()) + " inputs failed");
 }
@@ -137,7 +139,13 @@ void add_fit(CLI::App &app) {
     const auto parse_jobs = [](const std::string &text) { return parse_count(text, jobs_range); };
     add_parsed(*command, "--jobs", job->jobs, parse_jobs, "Materials at the same time, 1 to 256 (default: the cores)")
         ->type_name("N");
-    command->add_flag("--refit", job->refit, "Fit also what is up to date: same table, options and version");
+    CLI::Option *refit =
+        command->add_flag("--refit", job->refit, "Fit also what is up to date: same table, options and version");
+    command
+        ->add_flag("--resume", job->resume,
+                   "Go on where an interrupted run stopped: materials of DIR that are up to date stay, the others are "
+                   "fitted. So does fit by itself; with the flag, --refit is refused")
+        ->excludes(refit);
     command->add_flag("--metrics", job->metrics,
                       "Also measure the errors of both models and of three baselines in BRDF space (docs/metrics.md), "
                       "about 2 s a material, for the report, fits.csv and fits.json");
@@ -147,7 +155,7 @@ void add_fit(CLI::App &app) {
             ->add_option("--compare", job->compare,
                          "Fit nothing: print the errors of this table against INPUT, its source, in BRDF space")
             ->type_name("OTHER.binary");
-    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--metrics", "--plot"})
+    for (const char *of_a_fit : {"--out", "--lobes", "--model", "--jobs", "--refit", "--resume", "--metrics", "--plot"})
         compare->excludes(of_a_fit);
     command->add_flag("--json", job->json, "Print JSON");
     command->callback([job] { run(*job); });

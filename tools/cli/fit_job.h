@@ -21,6 +21,7 @@ struct FitJob {
     FitFlags fit;
     std::size_t jobs = 1; // materials at the same time
     bool refit = false;   // also what is up to date
+    bool resume = false;  // the same as not refit, said aloud
     bool metrics = false; // errors in BRDF space
     bool plot = false;
     bool json = false;

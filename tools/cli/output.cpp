@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <system_error>
 
 #include "handles.h"
@@ -89,6 +91,26 @@ void StagedFiles::commit() {
         if (error) refuse(staged.file, error.message());
     }
     files_.clear();
+}
+
+void remove_leftovers(const std::vector<fs::path> &files) {
+    std::set<std::string> names;
+    for (const fs::path &file : files) names.insert(file.filename().string());
+    const std::regex temporary(R"(\.(.+)\.\d+\.tmp(\..*)?)"); // the library's own temporary files end in more
+    std::error_code ignored;
+    std::vector<fs::path> leftovers;
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder_of(files.at(0)), ignored)) {
+        const std::string name = entry.path().filename().string();
+        std::smatch parts;
+        if (std::regex_match(name, parts, temporary) && names.contains(parts[1])) leftovers.push_back(entry.path());
+    }
+    for (const fs::path &leftover : leftovers) fs::remove(leftover, ignored);
+}
+
+void remove_file(const fs::path &file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw CommandError("cannot remove " + file.string() + ": " + error.message());
 }
 
 void write_text(const fs::path &file, const std::string &text) {

@@ -36,6 +36,12 @@ class StagedFiles {
     std::vector<Staged> files_;
 };
 
+// Removes what killed processes left of these files, all of one folder. Only where no other process writes them.
+void remove_leftovers(const std::vector<std::filesystem::path> &files);
+
+// Throws CommandError; a file that is not there is no error.
+void remove_file(const std::filesystem::path &file);
+
 void write_text(const std::filesystem::path &file, const std::string &text);
 
 } // namespace slopemix::cli

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include "commands.h"
 #include "input.h"
 #include "sheet_job.h"
+#include "sheet_journal.h"
 
 namespace slopemix::cli {
 
@@ -32,22 +34,44 @@ void require_legal_usage(const SheetJob &job) {
                                    "the sheet needs a measured table, and '" + job.input + "' is a material file");
 }
 
+SheetResult render(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal) {
+    try {
+        return render_sheet(job, plan, journal);
+    } catch (const Cancelled &) {
+        if (journal.exists()) throw CommandError("cancelled; with --resume the same command goes on from here");
+        throw;
+    }
+}
+
+void print_complete(const SheetJob &job) {
+    const std::filesystem::path file = job.file("sheet.json");
+    if (job.json)
+        std::cout << std::ifstream(file, std::ios::binary).rdbuf();
+    else
+        std::cout << file.string() << " is there with these settings, and so are its images: nothing to resume\n";
+}
+
 void run(const SheetJob &job) {
     const auto begin = std::chrono::steady_clock::now();
     require_legal_usage(job);
     const SheetPlan plan = plan_of(job);
     require_writable(job.file("sheet.json"));
     require_writable(job.file("sheet.png"));
+    require_writable(job.journal_file());
     for (const SheetStep &step : plan.steps())
         if (step.is_output) require_writable(job.image_file(step.image.id));
 
+    SheetJournal journal(job, plan);
+    SheetResult result = render(job, plan, journal);
+    if (journal.is_complete()) return print_complete(job);
     StagedFiles files;
-    SheetResult result = render_sheet(job, plan, files);
     files.write(job.file("sheet.png"), [&](const auto &file) { draw_sheet(job, plan, result, file); });
-    result.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.total_seconds =
+        result.earlier_seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const std::string document = sheet_json(job, result);
     files.write(job.file("sheet.json"), [&](const auto &file) { write_text(file, document); });
     files.commit();
+    journal.close();
 
     if (job.json)
         std::cout << document;
@@ -101,6 +125,9 @@ void add_sheet(CLI::App &app) {
     add_parsed(*command, "--only", job->only, parse_image_ids, "Only these images (default all)")
         ->type_name("T.R.C,...");
     add_render_flags(*command, job->flags);
+    command->add_flag("--resume", job->resume,
+                      "Go on where an interrupted sheet of DIR stopped, with its finished images; other settings than "
+                      "its own are refused");
     command->add_flag("--json", job->json, "Print sheet.json");
     command->footer(
         "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
@@ -108,7 +135,10 @@ void add_sheet(CLI::App &app) {
         "entry of --lobes under the shared model; with --model both, then the per-lobe model for each light; with\n"
         "--widening-order, then the same for each order and light. A "
         "filtered image that --only names without its reference is compared with DIR's, if that\n"
-        "was made with the same settings, or else with one that is rendered for the purpose and not kept.");
+        "was made with the same settings, or else with one that is rendered for the purpose and not kept.\n"
+        "A finished image is in its place at once, and listed in sheet.partial.json until the sheet is whole. The "
+        "first "
+        "one\ntakes away sheet.json and sheet.png of an earlier sheet: what is interrupted leaves neither.");
     command->callback([job] { run(*job); });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct SheetJob {
     bool with_per_lobe = false;
     std::vector<std::int32_t> widening_orders; // more columns of the per-lobe model
     std::vector<ImageId> only;
+    bool resume = false;
     bool json = false;
 
     // Widening orders of the per-lobe columns.
@@ -34,14 +36,17 @@ struct SheetJob {
     }
 
     std::filesystem::path file(const std::string &name) const { return std::filesystem::path(out) / name; }
+    std::filesystem::path journal_file() const { return file("sheet.partial.json"); }
     std::filesystem::path image_file(const ImageId &id) const { return file(to_string(id) + ".exr"); }
 };
 
 struct SheetEntry {
     SheetImage image;
-    std::filesystem::path file; // where it is before the sheet is complete
+    std::filesystem::path file;
     smx_render_report report;
     std::optional<smx_comparison> errors; // of filtered images
+    double bright;                        // bright_value() of what sets its exposure: a filtered image's reference
+    std::string sha256 = {};              // of the file
 };
 
 struct SheetFit {
@@ -59,6 +64,8 @@ struct SheetResult {
     std::array<double, light_degrees.size()> light_bright{}; // and of the references, light by light
     double reference_seconds = 0.0;                          // of references that were rendered
     std::uint64_t reference_samples = 0;
+    std::size_t kept_images = 0; // of an interrupted run; its times are in the totals
+    double earlier_seconds = 0.0, earlier_build_seconds = 0.0;
     double total_seconds = 0.0;
     double build_seconds = 0.0; // of these, compiling kernels
 
@@ -67,12 +74,17 @@ struct SheetResult {
     }
 };
 
-// Renders the plan's images under the staged names of their files.
-SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, StagedFiles &files);
+class SheetJournal;
+
+// Renders the plan's images, without those that the journal has. Where it has the whole sheet, nothing is done.
+SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal);
 
 // The contact sheet of what was rendered.
 void draw_sheet(const SheetJob &job, const SheetPlan &plan, const SheetResult &result,
                 const std::filesystem::path &file);
+
+// What the images depend on: members of sheet.json, which a resumed run must have too.
+nlohmann::ordered_json sheet_settings(const SheetJob &job, const SheetResult &result);
 
 // sheet.json, and the summary on standard output.
 std::string sheet_json(const SheetJob &job, const SheetResult &result);

@@ -1,8 +1,11 @@
-// Renders the images of a sheet, measures the filtered ones against their references, and gathers what the exposures
-// need. One reference is in memory at a time.
+// Renders the images of a sheet that no earlier run has finished, measures the filtered ones against their references,
+// and gathers what the exposures need. One reference is in memory at a time.
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "existing_reference.h"
@@ -11,31 +14,57 @@
 #include "progress.h"
 #include "renderings.h"
 #include "sheet_job.h"
+#include "sheet_journal.h"
 
 namespace slopemix::cli {
 
 namespace {
 
+// The steps without those of kept images. A reference that is kept stays, for comparison only, where a filtered image
+// is still to come, and one that is there for nothing else goes where none is.
+std::vector<SheetStep> remaining(const std::vector<SheetStep> &steps, const std::set<ImageId> &kept) {
+    std::vector<SheetStep> left;
+    std::optional<SheetStep> only_compared;
+    for (const SheetStep &step : steps) {
+        const bool is_left = step.is_output && !kept.contains(step.image.id);
+        if (step.image.role == Role::reference) {
+            only_compared.reset();
+            if (!is_left) only_compared = {step.image, false};
+        }
+        if (!is_left) continue;
+        if (step.image.role == Role::filtered && only_compared) left.push_back(*std::exchange(only_compared, {}));
+        left.push_back(step);
+    }
+    return left;
+}
+
 class SheetRenderer {
   public:
-    SheetRenderer(const SheetJob &job, const SheetPlan &plan, StagedFiles &files)
-        : job_(job), steps_(plan.steps()), files_(files), progress_(total_work()) {
+    SheetRenderer(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal)
+        : job_(job), plan_(plan), steps_(plan.steps()), journal_(journal), progress_(total_work()) {
         context_ = open_context(job.flags);
         brdf_ = open_brdf(job.input);
         result_.device = info_of(context_).name;
         result_.material = info_of(brdf_);
+        journal_.open(result_);
+        for (const SheetEntry &entry : result_.entries) {
+            kept_.insert(entry.image.id);
+            note_bright(entry);
+        }
     }
 
     SheetResult render() {
+        if (journal_.is_complete()) return std::move(result_);
+        for (const ImageId &id : kept_) progress_.advance(to_string(id) + " is there", work(plan_.image(id)));
         fit_materials();
-        for (const SheetStep &step : steps_) {
-            progress_.start(label(step.image), work(step.image));
+        for (const SheetStep &step : remaining(steps_, kept_)) {
+            progress_.start(label(step.image), kept_.contains(step.image.id) ? 0.0 : work(step.image));
             process(step);
             progress_.finish();
         }
         std::sort(result_.entries.begin(), result_.entries.end(),
                   [](const SheetEntry &a, const SheetEntry &b) { return a.image.id < b.image.id; });
-        result_.build_seconds = info_of(context_).build_seconds;
+        note_times();
         return std::move(result_);
     }
 
@@ -81,25 +110,26 @@ class SheetRenderer {
 
     void process_geometry(const SheetStep &step) {
         const Rendering rendering = render_geometry(context_, scene_of(step.image), options());
-        result_.geometry_bright = std::max(result_.geometry_bright, bright_value(rendering.image));
-        keep(step.image, rendering);
+        keep(step.image, rendering, bright_value(rendering.image));
     }
 
     void process_reference(const SheetStep &step) {
         const smx_scene scene = scene_of(step.image);
-        if (step.is_output)
-            reference_.reset();
-        else // one that an earlier sheet left in the folder
+        reference_.reset();
+        if (kept_.contains(step.image.id))
+            reference_ = acquire<Image>(smx_image_read_exr, job_.image_file(step.image.id).c_str());
+        else if (!step.is_output) // one that an earlier sheet left in the folder
             reference_ = existing_reference(job_.image_file(step.image.id), result_.material.sha256, scene, options());
         if (!reference_) {
             Rendering rendering = render_reference(context_, brdf_, scene, options());
             result_.reference_seconds += rendering.report.seconds - rendering.report.build_seconds;
             result_.reference_samples += rendering.report.evaluations;
-            if (step.is_output) keep(step.image, rendering);
+            reference_bright_ = bright_value(rendering.image);
+            if (step.is_output) keep(step.image, rendering, reference_bright_);
             reference_ = std::move(rendering.image);
+        } else {
+            reference_bright_ = bright_value(reference_);
         }
-        double &bright = result_.light_bright[step.image.light];
-        bright = std::max(bright, bright_value(reference_));
     }
 
     void process_filtered(const SheetStep &step) {
@@ -109,14 +139,26 @@ class SheetRenderer {
         const Rendering rendering = render_filtered(context_, material, scene_of(step.image), how);
         smx_comparison errors = SMX_COMPARISON_INIT;
         check(smx_image_compare(rendering.image.get(), reference_.get(), &errors));
-        keep(step.image, rendering, errors);
+        keep(step.image, rendering, reference_bright_, errors);
     }
 
-    void keep(const SheetImage &image, const Rendering &rendering, std::optional<smx_comparison> errors = {}) {
-        const std::filesystem::path file = files_.write(job_.image_file(image.id), [&](const auto &temporary) {
-            check(smx_image_write_exr(rendering.image.get(), temporary.c_str()));
-        });
-        result_.entries.push_back({image, file, rendering.report, errors});
+    void keep(const SheetImage &image, const Rendering &rendering, double bright,
+              std::optional<smx_comparison> errors = {}) {
+        note_times();
+        journal_.keep({image, job_.image_file(image.id), rendering.report, errors, bright}, rendering.image, result_);
+        note_bright(result_.entries.back());
+    }
+
+    void note_bright(const SheetEntry &entry) {
+        const SheetImage &image = entry.image;
+        double &bright = image.has_light() ? result_.light_bright[image.light] : result_.geometry_bright;
+        bright = std::max(bright, entry.bright);
+    }
+
+    void note_times() {
+        using Seconds = std::chrono::duration<double>;
+        result_.total_seconds = result_.earlier_seconds + Seconds(std::chrono::steady_clock::now() - begin_).count();
+        result_.build_seconds = result_.earlier_build_seconds + info_of(context_).build_seconds;
     }
 
     smx_scene scene_of(const SheetImage &image) const {
@@ -130,9 +172,11 @@ class SheetRenderer {
         return options;
     }
 
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     const SheetJob &job_;
+    const SheetPlan &plan_;
     const std::vector<SheetStep> steps_;
-    StagedFiles &files_;
+    SheetJournal &journal_;
     Progress progress_;
     Context context_;
     Brdf brdf_;
@@ -141,13 +185,15 @@ class SheetRenderer {
 
     std::map<FitKey, Material> materials_; // by the number of lobes asked for
     Image reference_;                      // of the row and light at hand
+    double reference_bright_ = 0.0;
+    std::set<ImageId> kept_; // finished by an earlier run
     SheetResult result_;
 };
 
 } // namespace
 
-SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, StagedFiles &files) {
-    return SheetRenderer(job, plan, files).render();
+SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal) {
+    return SheetRenderer(job, plan, journal).render();
 }
 
 } // namespace slopemix::cli

@@ -4,7 +4,9 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "exposure.h"
 #include "sheet_job.h"
@@ -69,6 +71,7 @@ Json image_json(const SheetEntry &entry) {
     const SheetImage &image = entry.image;
     const bool filtered = image.role == Role::filtered;
     Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
+    json["sha256"] = entry.sha256;
     json["alpha_x"] = image.alpha_x;
     json["alpha_y"] = image.alpha_y;
     json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
@@ -120,13 +123,23 @@ Json orders_json(const std::vector<std::int32_t> &orders) {
     return json;
 }
 
+Json only_json(const SheetJob &job) {
+    if (job.only.empty()) return {};
+    Json ids = Json::array();
+    for (const ImageId &id : std::set(job.only.begin(), job.only.end())) ids.push_back(to_string(id));
+    return ids;
+}
+
 Json settings_json(const SheetJob &job, const SheetResult &result) {
     const RenderFlags &flags = job.flags;
     return {{"device", result.device},
+            {"only", only_json(job)},
+            {"model", job.with_per_lobe ? "both" : "shared"},
             {"resolution", {flags.resolution.width, flags.resolution.height}},
             {"radii", job.radii},
             {"lobes", job.lobes},
             {"per_lobe_orders", orders_json(job.per_lobe_orders())},
+            {"widening_tolerance", flags.widening_tolerance},
             {"spp", flags.target_error > 0.0 ? Json() : Json(flags.spp)},
             {"target_error", flags.target_error > 0.0 ? Json(flags.target_error) : Json()},
             {"sampler", word_for(flags.sampler, samplers)},
@@ -147,12 +160,18 @@ Json exposures_json(const SheetResult &result) {
 
 } // namespace
 
+Json sheet_settings(const SheetJob &job, const SheetResult &result) {
+    Json settings = {{"version", SMX_VERSION_STRING}, {"sha256", result.material.sha256}};
+    settings.update(settings_json(job, result));
+    return settings;
+}
+
 std::string sheet_json(const SheetJob &job, const SheetResult &result) {
-    Json document = {{"schema", schema_version}, {"version", SMX_VERSION_STRING}};
+    Json document = {{"schema", schema_version}};
     document["material"] = result.material.name;
     document["source"] = result.material.source;
-    document["sha256"] = result.material.sha256;
-    document.update(settings_json(job, result));
+    document.update(sheet_settings(job, result));
+    document["kept_images"] = result.kept_images;
     document["total_seconds"] = result.total_seconds;
     document["build_seconds"] = result.build_seconds;
     document["reference_seconds"] = result.reference_seconds;
@@ -186,6 +205,7 @@ void print_summary(const SheetJob &job, const SheetResult &result) {
                     fixed(result.total_seconds, 2) + " (compiling kernels " + fixed(result.build_seconds, 2) + ")"}};
     if (result.reference_samples > 0)
         facts.emplace_back("seconds per reference sample", general(result.seconds_per_reference_sample(), 3));
+    if (result.kept_images > 0) facts.emplace_back("images of the interrupted run", std::to_string(result.kept_images));
     facts.emplace_back("contact sheet", job.file("sheet.png").string());
     print_facts(std::cout, facts);
 }

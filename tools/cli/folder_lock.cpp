@@ -1,0 +1,26 @@
+#include "folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "handles.h"
+#include "output.h"
+
+namespace slopemix::cli {
+
+FolderLock::FolderLock(const std::filesystem::path &folder) {
+    make_folder_of(folder / "file");
+    descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(descriptor_);
+    throw CommandError("another run is at work in " + folder.string());
+}
+
+FolderLock::~FolderLock() {
+    if (descriptor_ >= 0) close(descriptor_);
+}
+
+} // namespace slopemix::cli

@@ -1,0 +1,108 @@
+#include "sheet_journal.h"
+
+#include <iostream>
+#include <map>
+
+#include "digest.h"
+#include "sheet_entry.h"
+
+namespace slopemix::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = Journal::Json;
+
+void note(const std::string &sentence) { std::cerr << "slopemix: " << sentence << '\n'; }
+
+Json totals_json(const SheetResult &result) {
+    return {{"total_seconds", result.total_seconds},
+            {"build_seconds", result.build_seconds},
+            {"reference_seconds", result.reference_seconds},
+            {"reference_samples", result.reference_samples}};
+}
+
+void take_totals(const Json &totals, SheetResult &result) {
+    totals.at("total_seconds").get_to(result.earlier_seconds);
+    totals.at("build_seconds").get_to(result.earlier_build_seconds);
+    totals.at("reference_seconds").get_to(result.reference_seconds);
+    totals.at("reference_samples").get_to(result.reference_samples);
+}
+
+std::vector<fs::path> files_of(const SheetJob &job, const SheetPlan &plan) {
+    std::vector<fs::path> files = {job.journal_file(), job.file("sheet.json"), job.file("sheet.png")};
+    for (const SheetStep &step : plan.steps())
+        if (step.is_output) files.push_back(job.image_file(step.image.id));
+    return files;
+}
+
+} // namespace
+
+void SheetJournal::open(SheetResult &result) {
+    lock_.emplace(job_.out);
+    remove_leftovers(files_of(job_, plan_));
+    const Json settings = sheet_settings(job_, result);
+    journal_.emplace(job_.journal_file(), settings);
+    std::error_code ignored;
+    if (job_.resume && journal_->exists())
+        take_over(result);
+    else if (job_.resume && fs::exists(job_.file("sheet.json"), ignored))
+        require_complete(settings);
+    else if (job_.resume)
+        note("nothing to resume in " + job_.out + ": beginning anew");
+    else if (journal_->exists())
+        note(job_.journal_file().string() + " is of an interrupted sheet: beginning anew, without --resume");
+}
+
+void SheetJournal::take_over(SheetResult &result) {
+    const Journal::Content content = journal_->read();
+    take_totals(content.totals, result);
+    for (const Json &item : content.items) {
+        const SheetEntry entry = entry_of(item, job_, plan_);
+        if (sha256_of_file(entry.file) != entry.sha256) {
+            note(entry.file.string() + " is not the image that was finished: rendering it again");
+            continue;
+        }
+        result.entries.push_back(entry);
+        items_.push_back(item);
+    }
+    result.kept_images = result.entries.size();
+}
+
+void SheetJournal::require_complete(const Json &settings) {
+    const fs::path file = job_.file("sheet.json");
+    const Json document = Journal::read_object(file);
+    Journal::require_settings(file, document, settings);
+    std::map<std::string, Json> digests;
+    for (const Json &image : document.value("images", Json::array()))
+        digests[image.value("id", "")] = image.value("sha256", Json());
+    for (const SheetStep &step : plan_.steps()) {
+        const std::string id = to_string(step.image.id);
+        if (step.is_output && digests[id] != sha256_of_file(job_.image_file(step.image.id)))
+            Journal::refuse(file, id + ".exr is not the image that it describes");
+    }
+    is_complete_ = true;
+}
+
+void SheetJournal::displace_earlier_sheet(const SheetResult &result) {
+    if (has_begun_) return;
+    journal_->write({items_, totals_json(result)});
+    remove_file(job_.file("sheet.json"));
+    remove_file(job_.file("sheet.png"));
+    has_begun_ = true;
+}
+
+void SheetJournal::keep(SheetEntry entry, const Image &image, SheetResult &result) {
+    StagedFiles files;
+    const fs::path temporary =
+        files.write(entry.file, [&](const fs::path &file) { check(smx_image_write_exr(image.get(), file.c_str())); });
+    entry.sha256 = sha256_of_file(temporary);
+    displace_earlier_sheet(result);
+    files.commit();
+    result.entries.push_back(entry);
+    items_.push_back(item_of(entry));
+    journal_->write({items_, totals_json(result)});
+}
+
+} // namespace slopemix::cli
