@@ -9,7 +9,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "budget", "compare"};
+const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "budget", "compare", "bench"};
 
 Arguments render(const std::string &out) {
     return {"render",       "builtin:conductor",
