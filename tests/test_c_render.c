@@ -149,6 +149,41 @@ static void check_options(void) {
     CHECK(image == (smx_image)UNTOUCHED);
 }
 
+static void check_widening(void) {
+    static const int orders[] = {-2, 9, INT32_MAX, INT32_MIN};
+    static const double tolerances[] = {0.0, 1.0, -0.1, NAN, INFINITY};
+    const smx_displacement x = {0.1, 0.1, 0.0, 0.0, 0.0};
+    const smx_scene scene = SMX_SCENE_INIT;
+    const smx_render_options good = SMX_RENDER_OPTIONS_INIT;
+    const float up[3] = {0.0f, 0.0f, 1.0f};
+    float fcos[3] = {-7.0f, -7.0f, -7.0f};
+    smx_render_options bad = good;
+    smx_image image = (smx_image)UNTOUCHED;
+    size_t k;
+    for (k = 0; k < sizeof orders / sizeof *orders; ++k) {
+        bad.widening_order = orders[k];
+        INVALID("widening_order", render(FILTERED, &scene, &bad, &image, NULL));
+        INVALID("widening_order", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, &bad, 1, up, up, fcos));
+    }
+    bad.widening_order = 9;
+    INVALID("is 9; it must be 0..8", render(FILTERED, &scene, &bad, &image, NULL));
+    bad = good;
+    bad.widening_order = SMX_WIDENING_AUTO;
+    for (k = 0; k < sizeof tolerances / sizeof *tolerances; ++k) {
+        bad.widening_tolerance = tolerances[k];
+        INVALID("widening_tolerance", render(FILTERED, &scene, &bad, &image, NULL));
+    }
+    bad.widening_tolerance = good.widening_tolerance; /* pairs have no image to choose by */
+    INVALID("auto", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, &bad, 1, up, up, fcos));
+    bad.size = sizeof bad - 1;
+    INVALID("size", smx_material_eval(context, material, &x, SMX_G2_CORRELATED, &bad, 1, up, up, fcos));
+    CHECK(image == (smx_image)UNTOUCHED && fcos[0] == -7.0f && fcos[1] == -7.0f && fcos[2] == -7.0f);
+    bad = good;
+    bad.widening_order = SMX_WIDENING_MAX_ORDER;
+    OK(smx_material_eval(context, material, &x, SMX_G2_CORRELATED, &bad, 1, up, up, fcos));
+    CHECK(fcos[0] > 0.0f && fcos[2] > 0.0f);
+}
+
 static void check_handles(void) {
     const size_t sizes[] = WRONG_SIZES(smx_render_report);
     const smx_scene scene = SMX_SCENE_INIT;
@@ -294,6 +329,7 @@ int main(void) {
     check_scene();
     check_displacement();
     check_options();
+    check_widening();
     check_handles();
     check_cancel();
     check_eval();

@@ -58,6 +58,11 @@ std::vector<Input> log_positives(double least, double most) {
     return list;
 }
 
+std::vector<Input> of_both_signs(std::vector<Input> list) {
+    for (std::size_t k = 0; k < list.size(); k += 3) list[k].x = -list[k].x;
+    return list;
+}
+
 std::vector<Input> vectors() {
     test::Random random(13);
     std::vector<Input> list{{1.0, 0.0}, {0.0, 1.0}, {-1.0, 1.0}, {1.0, 1.0}, {-1.0, 0.0}, {1e-20, 1e-20}};
@@ -101,6 +106,11 @@ const std::vector<Function> &functions() {
              log_positives(2e-38, 3e38),
              [](double got, const Input &at) { return relative(got, Big(1.0) / sqrt(at.x)); },
              {2.4e-7, 7e-5, 4e-16},
+             false},
+            {"reciprocal(x)",
+             of_both_signs(log_positives(2e-38, 8e37)),
+             [](double got, const Input &at) { return relative(got, Big(1.0) / at.x); },
+             {2e-7, 7e-5, 2e-16},
              false},
             {"exp2_negative(x)",
              negatives(-126.0),
