@@ -231,8 +231,7 @@ LobeValues eval_lobes(Context &context, const Material &material, const std::vec
     kernel.setArg(6, static_cast<cl_int>(material.lobes.size()));
     const auto kept = set_widening(context, kernel, 7, material, scene.displacement, orders, grade);
     LobeValues result;
-    // In groups of one: every work-item writes, and none may be past the last pair.
-    result.kernel_seconds = launch(context, kernel, stride / context.width(), orders.size(), 1);
+    result.kernel_seconds = launch(context, kernel, stride / context.width(), orders.size(), 0);
 
     std::vector<float> padded(orders.size() * stride);
     context.queue().enqueueReadBuffer(out, CL_TRUE, 0, padded.size() * sizeof(float), padded.data());

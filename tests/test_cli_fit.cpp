@@ -113,7 +113,7 @@ TEST(CliFit, UnwritableOutputsFailWithoutATrace) {
     test::write_file(dir / "conductor.json", "precious");
     EXPECT_CLI_FAILS(1, "file", {"fit", "builtin:conductor", "--out", dir / "file"});
     EXPECT_CLI_FAILS(1, "file", {"synth", "builtin:conductor", "--out", dir / "file/x.binary"});
-    EXPECT_CLI_FAILS(1, "conductor.json", {"fit", "builtin:conductor", "--out", dir.path()}, {{}, 64});
+    EXPECT_CLI_FAILS(1, "conductor.json", {"fit", "builtin:conductor", "--out", dir.path()}, {{}, 512});
     EXPECT_CLI_FAILS(1, "conductor.json", {"synth", "builtin:conductor", "--out", dir / "conductor.json"},
                      {{}, 1 << 20});
     EXPECT_EQ(test::read_file(dir / "file"), "precious");
