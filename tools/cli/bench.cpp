@@ -72,7 +72,7 @@ void add_bench(CLI::App &app) {
     const auto flags = std::make_shared<BenchFlags>();
     command->add_option("--device", flags->render.device, "OpenCL device: its number in `slopemix info`, or its name")
         ->type_name("D");
-    command->add_flag("--quick", flags->quick, "One round instead of seven: a few seconds, and less to be trusted");
+    command->add_flag("--quick", flags->quick, "One round instead of seven: sooner done, and less to be trusted");
     command->add_flag("--json", flags->json, "Print JSON: a list of rows");
     command->footer(
         "Nanoseconds per evaluation, or per sample of the reference, on the whole device: medians of runs in which a\n"
