@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "shade_filtered.h"
 
@@ -15,14 +17,15 @@ struct Candidate {
     int order;
     double cost;
 };
-constexpr std::array<Candidate, 6> candidates = {{{0, 1.0}, {1, 5.5}, {2, 10.0}, {3, 16.0}, {5, 40.0}, {8, 90.0}}};
+constexpr std::array<Candidate, 6> candidates = {{{0, 1.0}, {1, 5.6}, {2, 12.0}, {3, 16.0}, {5, 40.0}, {8, 96.0}}};
 
 // All are measured against the last that is tried: order 5, which is some 0.003 off, where that is little.
-std::size_t finest_for(double tolerance) { return candidates.size() - (tolerance >= 0.012 ? 2 : 1); }
+std::size_t finest_candidate(double tolerance) { return candidates.size() - (tolerance >= 0.012 ? 2 : 1); }
 
 // Lit pixels that the orders are tried on, about; and the share of the tolerance that they may fill, since so few
 // pixels tell an image's error to no better than that.
-constexpr double probes = 96.0, safety = 0.8;
+constexpr std::size_t probes = 96;
+constexpr double safety = 0.8;
 
 struct Pairs {
     std::vector<float> wi, wo; // [count][3], packed
@@ -34,11 +37,13 @@ struct Pairs {
 Pairs lit_pairs(const Scene &scene) {
     constexpr double step_x = 0.7548776662466927, step_y = 0.5698402909980532;
     constexpr int most_points = 4096;
+    const std::uint32_t side = std::min(scene.width, scene.height);
     Pairs pairs;
-    for (int n = 1; n <= most_points && static_cast<double>(pairs.count()) < probes; ++n) {
-        const double x = std::fmod(n * step_x, 1.0), y = std::fmod(n * step_y, 1.0);
-        const auto d =
-            lit_pixel(scene, static_cast<std::uint32_t>(x * scene.width), static_cast<std::uint32_t>(y * scene.height));
+    for (int n = 1; n <= most_points && pairs.count() < probes; ++n) {
+        // Over the square that the sphere fills.
+        const auto column = static_cast<std::uint32_t>(std::fmod(n * step_x, 1.0) * side);
+        const auto row = static_cast<std::uint32_t>(std::fmod(n * step_y, 1.0) * side);
+        const auto d = lit_pixel(scene, (scene.width - side) / 2 + column, (scene.height - side) / 2 + row);
         if (!d) continue;
         for (double v : d->wi) pairs.wi.push_back(static_cast<float>(v));
         for (double v : d->wo) pairs.wo.push_back(static_cast<float>(v));
@@ -54,8 +59,13 @@ class Trial {
 
     std::size_t lobes() const { return lobes_; }
     std::size_t finest() const { return finest_; }
-    // Error of a choice of candidates, by lobe, relative to the finest: root mean squares over the image.
-    double error(const std::vector<std::size_t> &choice) const;
+    // What all lobes by the first candidate have beyond the finest.
+    std::vector<double> first_excess() const;
+    // Moves a lobe from one candidate to another in such an excess.
+    void move(std::vector<double> &excess, std::size_t lobe, std::size_t from, std::size_t to) const;
+    // Of an excess, relative to the finest: root mean squares over the image. `moved` as if it were.
+    double error(const std::vector<double> &excess) const;
+    double error_moved(const std::vector<double> &excess, std::size_t lobe, std::size_t from, std::size_t to) const;
 
   private:
     const std::vector<double> &of(std::size_t candidate, std::size_t lobe) const {
@@ -64,6 +74,7 @@ class Trial {
 
     std::size_t lobes_, finest_;
     std::vector<std::vector<double>> values_;
+    double value2_ = 0.0;
 };
 
 Trial::Trial(const Material &material, const Scene &scene, const std::vector<float> &values, std::size_t pairs,
@@ -78,47 +89,61 @@ Trial::Trial(const Material &material, const Scene &scene, const std::vector<flo
             for (double channel : f) coloured.push_back(channel * double{values[entry * pairs + p]});
         values_.push_back(std::move(coloured));
     }
+    std::vector<double> total(values_[0].size());
+    for (std::size_t k = 0; k < lobes_; ++k)
+        for (std::size_t p = 0; p < total.size(); ++p) total[p] += of(finest_, k)[p];
+    for (double value : total) value2_ += value * value;
 }
 
-double Trial::error(const std::vector<std::size_t> &choice) const {
-    double error2 = 0.0, value2 = 0.0;
-    for (std::size_t p = 0; p < values_[0].size(); ++p) {
-        double value = 0.0, error = 0.0;
-        for (std::size_t k = 0; k < lobes_; ++k) {
-            value += of(finest_, k)[p];
-            error += of(choice[k], k)[p] - of(finest_, k)[p];
-        }
-        error2 += error * error;
-        value2 += value * value;
+std::vector<double> Trial::first_excess() const {
+    std::vector<double> excess(values_[0].size());
+    for (std::size_t k = 0; k < lobes_; ++k) move(excess, k, finest_, 0);
+    return excess;
+}
+
+void Trial::move(std::vector<double> &excess, std::size_t lobe, std::size_t from, std::size_t to) const {
+    for (std::size_t p = 0; p < excess.size(); ++p) excess[p] += of(to, lobe)[p] - of(from, lobe)[p];
+}
+
+double Trial::error(const std::vector<double> &excess) const {
+    double error2 = 0.0;
+    for (double e : excess) error2 += e * e;
+    return value2_ > 0.0 ? std::sqrt(error2 / value2_) : 0.0;
+}
+
+double Trial::error_moved(const std::vector<double> &excess, std::size_t lobe, std::size_t from, std::size_t to) const {
+    double error2 = 0.0;
+    for (std::size_t p = 0; p < excess.size(); ++p) {
+        const double e = excess[p] + of(to, lobe)[p] - of(from, lobe)[p];
+        error2 += e * e;
     }
-    return value2 > 0.0 ? std::sqrt(error2 / value2) : 0.0;
+    return value2_ > 0.0 ? std::sqrt(error2 / value2_) : 0.0;
 }
 
 // Raises one lobe after the other, each time the one, and as far, as lowers the error most for its cost.
 std::vector<std::size_t> cheapest(const Trial &trial, double tolerance) {
     std::vector<std::size_t> choice(trial.lobes(), 0);
-    for (double error = trial.error(choice); error > tolerance;) {
-        double best_gain = -1.0;
-        std::vector<std::size_t> best;
+    std::vector<double> excess = trial.first_excess();
+    for (double error = trial.error(excess); !(error <= tolerance); error = trial.error(excess)) {
+        double best_gain = -std::numeric_limits<double>::infinity();
+        std::size_t lobe = trial.lobes(), to = 0;
         for (std::size_t k = 0; k < trial.lobes(); ++k)
             for (std::size_t c = choice[k] + 1; c <= trial.finest(); ++c) {
-                std::vector<std::size_t> raised = choice;
-                raised[k] = c;
                 const double cost = candidates[c].cost - candidates[choice[k]].cost;
-                const double gain = (error - trial.error(raised)) / cost;
-                if (gain > best_gain) best_gain = gain, best = raised;
+                const double gain = (error - trial.error_moved(excess, k, choice[k], c)) / cost;
+                if (gain > best_gain) best_gain = gain, lobe = k, to = c;
             }
-        if (best.empty()) break;
-        choice = best;
-        error = trial.error(choice);
+        if (lobe == trial.lobes()) break; // all are at the finest
+        trial.move(excess, lobe, choice[lobe], to);
+        choice[lobe] = to;
     }
     // What an early raise did, a later one may have made needless.
     for (std::size_t k = trial.lobes(); k-- > 0;)
-        for (std::size_t c = 0; c < choice[k]; ++c) {
-            std::vector<std::size_t> lowered = choice;
-            lowered[k] = c;
-            if (trial.error(lowered) <= tolerance) choice = lowered;
-        }
+        for (std::size_t c = 0; c < choice[k]; ++c)
+            if (trial.error_moved(excess, k, choice[k], c) <= tolerance) {
+                trial.move(excess, k, choice[k], c);
+                choice[k] = c;
+            }
     return choice;
 }
 
@@ -144,8 +169,9 @@ ChosenOrders widening_orders(Context &context, const Material &material, const S
     const Context::Lock lock(context);
     const CallTimer timer(context);
     const Pairs pairs = lit_pairs(scene);
-    if (pairs.count() == 0) return {fixed_orders(material, scene.displacement, 0), timer.finish(context, 0.0, 0)};
-    const std::size_t finest = finest_for(options.widening_tolerance);
+    if (pairs.count() == 0) // nothing to see
+        return {fixed_orders(material, scene.displacement, 0), timer.finish(context, 0.0, 0)};
+    const std::size_t finest = finest_candidate(options.widening_tolerance);
     const LobeValues tried = eval_lobes(context, material, tried_orders(material.lobes.size(), finest), scene,
                                         options.grade, pairs.count(), pairs.wi.data(), pairs.wo.data());
     const Trial trial(material, scene, tried.values, pairs.count(), finest);

@@ -1,7 +1,6 @@
 #include "shade_filtered.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -156,6 +155,8 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     attributes["slopemix.widening_order"] =
         options.widening_order == widening_auto ? "auto" : std::to_string(options.widening_order);
     attributes["slopemix.widening_orders"] = text_of(orders);
+    if (options.widening_order == widening_auto)
+        attributes["slopemix.widening_tolerance"] = number_text(options.widening_tolerance);
     std::atomic<std::uint64_t> unsettled = 0;
     Rendered rendered = render_once(
         context, scene, options, attributes, [&, &orders = orders](Context &device, std::uint32_t most_rows) {

@@ -1,7 +1,6 @@
 #include "widening.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -63,23 +62,25 @@ int first_node(int order) { return order * (order - 1) / 2; }
 
 double reciprocal_or_0(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
-} // namespace
+// As in cl/facet_chart.clh, cl/facet_peak.clh and cl/widen.clh.
+template <typename Real>
+struct DeviceFacets {
+    Real axis_x, axis_y, mean_1, mean_2, alpha_1, alpha_2, inv_alpha_1, inv_alpha_2, n_x, n_y, n_z, flatness;
+};
 
-int rough_axes(const Displacement &displacement) {
-    const PrincipalAxes axes = principal_axes(displacement);
-    return (axes.var_1 > 0.0) + (axes.var_2 > 0.0);
-}
+template <typename Real>
+struct DeviceQuadratureLobe {
+    std::int32_t order, nodes, steps;
+    Real alpha2, inv_alpha2, peak;
+    Real half_turn_h, half_turn_z, half_masked;
+    Real sigma_0, fall;
+    Real towards_mean_1, towards_mean_2, reach2;
+};
 
-std::vector<int> fixed_orders(const Material &material, const Displacement &displacement, int order) {
-    return std::vector<int>(material.lobes.size(), rough_axes(displacement) == 0 ? 0 : order);
-}
-
-void validate_widening(const RenderOptions &o) {
-    require(o.widening_order >= widening_auto && o.widening_order <= max_widening_order, "widening_order is ",
-            o.widening_order, "; it must be 0..", max_widening_order, ", or -1 (auto)");
-    require(o.widening_tolerance > 0.0 && o.widening_tolerance < 1.0, "widening_tolerance is ", o.widening_tolerance,
-            "; it must be above 0 and below 1");
-}
+template <typename Real>
+struct DeviceNode {
+    Real z, weight;
+};
 
 template <typename Real>
 DeviceFacets<Real> device_facets(const Displacement &x) {
@@ -103,6 +104,7 @@ DeviceFacets<Real> device_facets(const Displacement &x) {
             r(axes.var_2 / axes.var_1)};
 }
 
+// One entry per order, of the material's lobes in turn.
 template <typename Real>
 std::vector<DeviceQuadratureLobe<Real>> quadrature_lobes(const Material &material, const std::vector<int> &orders,
                                                          const Displacement &displacement) {
@@ -121,7 +123,7 @@ std::vector<DeviceQuadratureLobe<Real>> quadrature_lobes(const Material &materia
         const int order = orders[entry];
         const Placement model = placement(order);
         const double pull_1 = model.pull * axes.var_1, pull_2 = model.pull * axes.var_2;
-        lobes.push_back({order, first_node(order), model.steps, 0, r(alpha2), r(1.0 / alpha2),
+        lobes.push_back({order, first_node(order), model.steps, r(alpha2), r(1.0 / alpha2),
                          r(weight / (pi * alpha2) * surface), r(model.turn_h / 2), r(model.turn_z / 2),
                          r(model.masked / 2), r(sigma_0), r(fall_over_sigma / sigma_0), r(alpha2 / (alpha2 + pull_1)),
                          r(alpha2 / (alpha2 + pull_2)),
@@ -131,7 +133,7 @@ std::vector<DeviceQuadratureLobe<Real>> quadrature_lobes(const Material &materia
 }
 
 // Golub and Welsch 1969: nodes are the eigenvalues of the recurrence's matrix, weights the squares of the eigenvectors'
-// first components times the integral of exp(-z^2).
+// first components times the integral of exp(-z^2). The orders follow one another, as first_node has them.
 template <typename Real>
 std::vector<DeviceNode<Real>> hermite_nodes() {
     std::vector<DeviceNode<Real>> nodes;
@@ -149,14 +151,33 @@ std::vector<DeviceNode<Real>> hermite_nodes() {
     return nodes;
 }
 
+} // namespace
+
+int rough_axes(const Displacement &displacement) {
+    const PrincipalAxes axes = principal_axes(displacement);
+    return (axes.var_1 > 0.0) + (axes.var_2 > 0.0);
+}
+
+std::vector<int> fixed_orders(const Material &material, const Displacement &displacement, int order) {
+    return std::vector<int>(material.lobes.size(), rough_axes(displacement) == 0 ? 0 : order);
+}
+
+void validate_widening(const RenderOptions &o) {
+    require(o.widening_order >= widening_auto && o.widening_order <= max_widening_order, "widening_order is ",
+            o.widening_order, "; it must be 0..", max_widening_order, ", or -1 (auto)");
+    require(o.widening_tolerance > 0.0 && o.widening_tolerance < 1.0, "widening_tolerance is ", o.widening_tolerance,
+            "; it must be above 0 and below 1");
+}
+
 std::vector<cl::Buffer> set_widening(const Context &context, cl::Kernel &kernel, cl_uint first,
                                      const Material &material, const Displacement &displacement,
                                      const std::vector<int> &orders, Grade grade) {
     return with_real(grade, [&](auto real) {
         using Real = decltype(real);
+        static const std::vector<DeviceNode<Real>> nodes = hermite_nodes<Real>();
         kernel.setArg(first, device_facets<Real>(displacement));
         std::vector<cl::Buffer> buffers = {buffer_from(context, quadrature_lobes<Real>(material, orders, displacement)),
-                                           buffer_from(context, hermite_nodes<Real>())};
+                                           buffer_from(context, nodes)};
         kernel.setArg(first + 1, buffers[0]);
         kernel.setArg(first + 2, buffers[1]);
         return buffers;
