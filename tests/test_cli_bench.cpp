@@ -29,7 +29,7 @@ std::set<Key> expected_rows() {
             for (const std::string model : {"shared.", "per-lobe."})
                 for (const std::string baseline : {"scalar-one-core", "builtin-kernel"})
                     keys.insert({"shade." + model + n, grade, baseline});
-        for (const std::string order : {"order1", "order2", "order3"})
+        for (const std::string order : {"order1", "order2", "order3", "order5", "order8"})
             keys.insert({"shade.per-lobe.n8." + order, grade, "closed-form"});
         for (const std::string sampling : {"slice.grid", "slice.sobol", "slice.mis", "full.grid", "full.mis"})
             for (const std::string baseline : {"plain-kernel", "scalar-one-core"})

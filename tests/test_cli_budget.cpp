@@ -96,6 +96,27 @@ TEST(CliBudget, OfOneLobeIsItsWidening) {
     EXPECT_LT(row_of(report, 0.0, 0.0, "shared").at("inversion").get<double>(), fit_tolerance);
 }
 
+TEST(CliBudget, AnOrderTakesTheWideningAway) {
+    const auto widened = [](const char *order) {
+        return budget("analytic:beckmann,alpha=0.3,f0=0.9",
+                      {"--alpha", "0.5,0.5", "--light", "90", "--lobes", "1", "--widening-order", order});
+    };
+    const json closed_form = split(widened("0")), quadrature = split(widened("3")), chosen = split(widened("auto"));
+    EXPECT_EQ(closed_form.at("widening_order"), 0);
+    EXPECT_EQ(quadrature.at("widening_order"), 3);
+    EXPECT_TRUE(quadrature.at("widening_tolerance").is_null());
+    EXPECT_EQ(chosen.at("widening_order"), "auto");
+    EXPECT_EQ(chosen.at("widening_tolerance").get<double>(), 0.02);
+    for (const char *model : {"shared", "per-lobe"})
+        EXPECT_LT(row_of(quadrature, 0.5, 0.5, model).at("widening").get<double>(),
+                  row_of(closed_form, 0.5, 0.5, model).at("widening").get<double>())
+            << model;
+    const test::CliResult text = test::cli(test::with(widened("3"), {"--widening-tolerance", "0.1"}));
+    ASSERT_CLI_OK(text);
+    EXPECT_NE(text.out.substr(0, text.out.find('\n')).find("widening order 3"), std::string::npos) << text.out;
+    EXPECT_NE(text.err.find("--widening-tolerance has no effect"), std::string::npos) << text.err;
+}
+
 TEST(CliBudget, RowsAreMeans) {
     const json report = split(budget("builtin:conductor", {"--alpha", "0.1,0.1", "--alpha", "0.5,0", "--alpha", "0,0",
                                                            "--light", "90", "--light", "0", "--lobes", "1"}));

@@ -78,6 +78,30 @@ TEST(CliRender, BothIntegratorsWriteImages) {
     EXPECT_EQ(test::read_file(dir / "filtered.png").substr(1, 3), "PNG");
 }
 
+TEST(CliRender, WideningOrdersAreReported) {
+    const test::TempDir dir;
+    const auto widened = [&](const Arguments &more) {
+        return test::cli(
+            test::with(render("filtered", "builtin:two-layer", dir / "a.exr"), test::with(more, {"--json"})));
+    };
+    const test::CliResult fixed = widened({"--widening-order", "2", "--widening-tolerance", "0.1"});
+    ASSERT_CLI_OK(fixed);
+    const json report = fixed.json();
+    EXPECT_EQ(report.at("widening_order"), 2);
+    EXPECT_TRUE(report.at("widening_tolerance").is_null());
+    ASSERT_GT(report.at("lobes").get<std::size_t>(), 1u);
+    EXPECT_EQ(report.at("widening_orders"), json(std::vector<int>(report.at("lobes").get<std::size_t>(), 2)));
+    EXPECT_TRUE(report.at("unsettled").is_number());
+    const std::string note = "note: --widening-tolerance has no effect";
+    EXPECT_NE(fixed.err.find(note), std::string::npos) << fixed.err;
+
+    const test::CliResult chosen = widened({"--widening-order", "auto", "--widening-tolerance", "0.1"});
+    ASSERT_CLI_OK(chosen);
+    EXPECT_EQ(chosen.json().at("widening_order"), "auto");
+    EXPECT_EQ(chosen.json().at("widening_tolerance").get<double>(), 0.1);
+    EXPECT_EQ(chosen.err.find(note), std::string::npos) << chosen.err;
+}
+
 // The same question through the API has the same bits.
 TEST(CliRender, ImageIsTheApis) {
     const test::TempDir dir;

@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <cstring>
+#include <map>
 #include <set>
 
 #include "cli.h"
@@ -125,6 +126,77 @@ TEST(CliSheet, RadiiAndLobesAreTheCallers) {
     EXPECT_EQ(images[0].at("lobes"), 2);
     EXPECT_GT(images[0].at("relrmse").get<double>(), 0.0); // against a reference that is not kept
     EXPECT_EQ(run.json(), json::parse(test::read_file(dir / "sheet.json")));
+}
+
+// Three columns per order behind the ten of the shared model, the closed form first.
+TEST(CliSheet, WideningOrdersAreColumns) {
+    const test::TempDir dir;
+    const Arguments chosen{
+        "--radii", "0.5", "--widening-order", "1,0,auto", "--only", "1.1.2,1.1.4,1.1.11,1.1.14,1.1.17", "--json"};
+    const test::CliResult run = test::cli(test::replaced(test::with(sheet(dir.path()), chosen), "--spp", "1024"));
+    ASSERT_CLI_OK(run);
+    const json document = run.json();
+    EXPECT_EQ(document.at("model"), "both");
+    EXPECT_EQ(document.at("per_lobe_orders"), json::parse(R"([0, 1, "auto"])"));
+    EXPECT_EQ(document.at("widening_tolerance").get<double>(), 0.02);
+    const json &images = document.at("images");
+    ASSERT_EQ(images.size(), 5u);
+    EXPECT_TRUE(images[0].at("widening_order").is_null());
+    EXPECT_TRUE(images[0].at("widening_orders").is_null());
+    EXPECT_TRUE(images[0].at("unsettled").is_null());
+    EXPECT_EQ(images[1].at("model"), "shared");
+    EXPECT_EQ(images[1].at("widening_order"), 0);
+
+    std::map<std::string, std::size_t> fitted;
+    for (const json &fit : document.at("fits")) fitted[fit.at("model")] = fit.at("fitted_lobes");
+    std::vector<double> errors;
+    for (const auto &[k, word] : {std::pair{2, "0"}, {3, "1"}, {4, "auto"}}) {
+        SCOPED_TRACE(word);
+        const json &image = images[static_cast<std::size_t>(k)];
+        EXPECT_EQ(image.at("column"), 11 + 3 * (k - 2));
+        EXPECT_EQ(image.at("model"), "per-lobe");
+        EXPECT_EQ(image.at("light_phi_deg").get<double>(), 90.0);
+        EXPECT_EQ(image.at("widening_order"), k == 4 ? json("auto") : json(k - 2));
+        ASSERT_EQ(image.at("widening_orders").size(), fitted.at("per-lobe"));
+        for (const json &order : image.at("widening_orders")) {
+            EXPECT_TRUE(k == 4 || order == k - 2) << order;
+        }
+        EXPECT_GE(image.at("unsettled").get<double>(), 0.0);
+        EXPECT_LE(image.at("unsettled").get<double>(), 1.0);
+        const test::Image exr = read(dir / (image.at("id").get<std::string>() + ".exr"));
+        EXPECT_STREQ(smx_image_get_attribute(exr, "slopemix.widening_order"), word);
+        errors.push_back(image.at("relrmse"));
+    }
+    EXPECT_LT(errors[1], errors[0]);
+    EXPECT_LT(errors[2], errors[0]);
+}
+
+// The same columns by other flags are the same sheet.
+TEST(CliSheet, TheClosedFormIsModelBoth) {
+    const test::TempDir dir;
+    const auto arguments = [&](const Arguments &more) {
+        return test::with(test::with(sheet(dir.path()), {"--only", "1.1.1", "--json"}), more);
+    };
+    const test::CliResult both = test::cli(arguments({"--model", "both", "--widening-order", "2"}));
+    ASSERT_CLI_OK(both);
+    EXPECT_TRUE(both.json().at("widening_tolerance").is_null());
+    const test::CliResult again =
+        test::cli(arguments({"--widening-order", "2,0", "--widening-tolerance", "0.1", "--resume"}));
+    ASSERT_CLI_OK(again);
+    EXPECT_EQ(again.json(), both.json());
+    EXPECT_NE(again.err.find("--widening-tolerance has no effect"), std::string::npos) << again.err;
+    EXPECT_CLI_FAILS(1, "made with per_lobe_orders", arguments({"--widening-order", "0,3", "--resume"}));
+}
+
+TEST(CliSheet, BadListsOfOrdersAreRefused) {
+    const test::TempDir dir;
+    for (const auto &[list, reason] :
+         {std::pair{"1,,2", "0..8"}, {"9", "0..8"}, {"0,0", "names 0 twice"}, {"1,", "not a list of orders"}}) {
+        SCOPED_TRACE(list);
+        EXPECT_CLI_FAILS(2, "--widening-order", test::with(sheet(dir / "s"), {"--widening-order", list}));
+        EXPECT_CLI_FAILS(2, reason, test::with(sheet(dir / "s"), {"--widening-order", list}));
+    }
+    EXPECT_TRUE(dir.names().empty());
 }
 
 TEST(CliSheet, FailuresKeepWhatWasThere) {

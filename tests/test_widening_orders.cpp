@@ -223,6 +223,18 @@ TEST(WideningOrders, SmoothXIsTheBase) {
         }
 }
 
+// At grazing wo f cos is finite, and facets nearly turned away from it are all that is seen.
+TEST(WideningOrders, GrazingIsNotLost) {
+    for (const double alpha : {0.3, 2.0}) {
+        Scenery s{{{1.0, alpha}}, {1e-6, 1e-6, 0.0, 0.0, 0.0}, Base::per_lobe};
+        test::Directions pairs;
+        for (const double z : {1e-3, 1e-4, 1e-5}) pairs.add({0.0, 0.6, 0.8}, oracle::normalised({1.0, 0.0, z}));
+        const std::vector<double> closed = eval(s, pairs, 0);
+        for (const int order : {1, 2, 3, 8})
+            EXPECT_LT(relrmse(eval(s, pairs, order), closed), 1e-3) << "alpha " << alpha << ", order " << order;
+    }
+}
+
 TEST(WideningOrders, NumbersEverywhere) {
     test::Random random(11);
     const std::vector<double> alphas{0.0, 1e-6, 1e-3, 0.1, 1.0, 10.0}, rhos{-0.99, 0.0, 0.99};

@@ -30,7 +30,7 @@ struct BenchJob {
 
 inline constexpr smx_grade bench_grades[] = {SMX_GRADE_PRECISE, SMX_GRADE_FAST};
 inline constexpr int lobe_counts[] = {1, 2, 4, 8, 16};
-inline constexpr int widening_orders[] = {1, 2, 3};
+inline constexpr int widening_orders[] = {1, 2, 3, 5, 8};
 
 // In progress's units.
 inline constexpr double shading_jobs = 10.0, widening_jobs = 2.0, reference_jobs = 5.0;

@@ -73,6 +73,7 @@ void add_budget(CLI::App &app) {
         "the default --target-error.");
     command->callback([command, job] {
         drop_default_target(*command, job->flags);
+        note_tolerance_without_effect(*command, job->flags.has_auto_order());
         run(*job);
     });
 }

@@ -6,6 +6,7 @@
 
 #include "budget_job.h"
 #include "text.h"
+#include "widening_json.h"
 
 namespace slopemix::cli {
 
@@ -100,6 +101,8 @@ void print_budget_json(const BudgetJob &job, const BudgetResult &result) {
     Json document = {{"version", SMX_VERSION_STRING}, {"input", job.input}, {"material", result.material.name}};
     document["sha256"] = result.material.sha256;
     document["lobes"] = job.lobes;
+    document["widening_order"] = order_json(flags.widening_order);
+    document["widening_tolerance"] = tolerance_json(flags.widening_tolerance, flags.has_auto_order());
     document["lights_deg"] = job.lights;
     document["resolution"] = {flags.resolution.width, flags.resolution.height};
     document["sampler"] = word_for(flags.sampler, samplers);
@@ -117,8 +120,9 @@ void print_budget_json(const BudgetJob &job, const BudgetResult &result) {
 
 void print_budget_text(const BudgetJob &job, const BudgetResult &result) {
     const Resolution resolution = job.flags.resolution;
-    std::cout << result.material.name << ": relRMSE, " << job.lobes << " lobes, " << resolution.width << " x "
-              << resolution.height << " pixels, references of " << sampling_text(job.flags) << "\n\n";
+    std::cout << result.material.name << ": relRMSE, " << job.lobes << " lobes, widening order "
+              << widening_text(job.flags.widening_order) << ", " << resolution.width << " x " << resolution.height
+              << " pixels, references of " << sampling_text(job.flags) << "\n\n";
 
     std::vector<TextRow> rows = {{"alpha", "model", "inversion", "fit", "widening", "total"}};
     for (std::size_t alpha = 0; alpha < job.alphas.size(); ++alpha)

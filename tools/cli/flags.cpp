@@ -2,6 +2,7 @@
 #include "flags.h"
 
 #include <cmath>
+#include <iostream>
 
 #include "text.h"
 
@@ -94,6 +95,11 @@ void add_widening_tolerance(CLI::App &command, RenderFlags &flags) {
     add_parsed(command, "--widening-tolerance", flags.widening_tolerance, parse_tolerance,
                "relRMSE that --widening-order auto may leave (default 0.02)")
         ->type_name("E");
+}
+
+void note_tolerance_without_effect(const CLI::App &command, bool is_auto) {
+    if (!is_auto && command.count("--widening-tolerance") > 0)
+        std::cerr << "slopemix: note: --widening-tolerance has no effect without --widening-order auto\n";
 }
 
 void add_widening_flags(CLI::App &command, RenderFlags &flags) {

@@ -1,4 +1,4 @@
-// Flags whose values are parsed and checked by us, and the flags that render and sheet share.
+// Flags whose values are parsed and checked by us, and the flags that render, sheet and budget share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -86,6 +86,8 @@ struct RenderFlags {
     double widening_tolerance = 0.02;
     std::string device; // empty: the library's choice
     std::uint32_t sub_devices = 0;
+
+    bool has_auto_order() const { return widening_order == SMX_WIDENING_AUTO; }
 };
 
 // Resolution, samples, seed and device; their help names the values in `flags` as the defaults.
@@ -101,6 +103,9 @@ std::string widening_text(std::int32_t order);
 // The order of filtered images, and the tolerance of auto.
 void add_widening_flags(CLI::App &command, RenderFlags &flags);
 void add_widening_tolerance(CLI::App &command, RenderFlags &flags);
+
+// A tolerance where no order is auto is no error; but it is said.
+void note_tolerance_without_effect(const CLI::App &command, bool is_auto);
 
 // How a reference is sampled: "4096 samples per pixel" or "standard error 0.01".
 std::string sampling_text(const RenderFlags &flags);

@@ -47,6 +47,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
         for (const char *flag : {"--lobes", "--model", "--widening-order", "--widening-tolerance"}) note(flag);
     else
         for (const char *flag : {"--spp", "--target-error", "--sampler", "--seed", "--lookup", "--errors"}) note(flag);
+    if (!job.is_reference()) note_tolerance_without_effect(command, job.flags.has_auto_order());
 }
 
 Material load_material(const RenderJob &job) {

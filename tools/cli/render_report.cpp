@@ -5,6 +5,7 @@
 
 #include "render_job.h"
 #include "text.h"
+#include "widening_json.h"
 
 namespace slopemix::cli {
 
@@ -21,21 +22,15 @@ bool has_error(const RenderJob &job, const smx_render_report &report) {
     return job.is_reference() && report.standard_error >= 0.0;
 }
 
-// By lobe.
-std::vector<int> orders_of(const Rendered &rendered) {
-    const std::uint8_t *orders = rendered.rendering.report.widening_orders;
-    return {orders, orders + rendered.lobes};
-}
-
-Json order_json(std::int32_t order) { return order == SMX_WIDENING_AUTO ? Json("auto") : Json(order); }
-
 Json configuration(const RenderJob &job, const Rendered &rendered) {
     Json json = {{"input", job.input}, {"material", rendered.name}};
     json["integrator"] = word_for(job.integrator, integrators);
     json["model"] = job.is_reference() ? Json() : Json(word_for(rendered.model, models));
     json["lobes"] = job.is_reference() ? Json() : Json(rendered.lobes);
     json["widening_order"] = job.is_reference() ? Json() : order_json(job.flags.widening_order);
-    json["widening_orders"] = job.is_reference() ? Json() : Json(orders_of(rendered));
+    json["widening_tolerance"] =
+        tolerance_json(job.flags.widening_tolerance, !job.is_reference() && job.flags.has_auto_order());
+    json["widening_orders"] = job.is_reference() ? Json() : Json(orders_of(rendered.rendering.report, rendered.lobes));
     json["alpha_x"] = job.alpha.first;
     json["alpha_y"] = job.alpha.second;
     json["rho"] = job.rho;
@@ -81,7 +76,7 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
                                                               ", lobes: " + std::to_string(rendered.lobes));
     if (!job.is_reference()) {
         std::string orders;
-        for (int order : orders_of(rendered)) orders += ' ' + std::to_string(order);
+        for (int order : orders_of(report, rendered.lobes)) orders += ' ' + std::to_string(order);
         facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);
     }
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));

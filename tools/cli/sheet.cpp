@@ -119,7 +119,7 @@ void add_sheet(CLI::App &app) {
         ->type_name("shared|both");
     add_parsed(*command, "--widening-order", job->widening_orders, parse_orders,
                "More columns: the per-lobe model with the last of --lobes, widened by quadrature of these orders, 0 to "
-               "8, 0 being the closed form, or auto")
+               "8, or auto; 0 is the closed form, and comes first")
         ->type_name("N,...");
     add_widening_tolerance(*command, job->flags);
     add_parsed(*command, "--only", job->only, parse_image_ids, "Only these images (default all)")
@@ -133,13 +133,15 @@ void add_sheet(CLI::App &app) {
         "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
         "Columns C: 1 the geometry, then for each light (90, 0, -25 degrees) the reference and one filtered image per\n"
         "entry of --lobes under the shared model; with --model both, then the per-lobe model for each light; with\n"
-        "--widening-order, then the same for each order and light. A "
-        "filtered image that --only names without its reference is compared with DIR's, if that\n"
-        "was made with the same settings, or else with one that is rendered for the purpose and not kept.\n"
-        "A finished image is in its place at once, and listed in sheet.partial.json until the sheet is whole. The "
-        "first "
-        "one\ntakes away sheet.json and sheet.png of an earlier sheet: what is interrupted leaves neither.");
-    command->callback([job] { run(*job); });
+        "--widening-order, then the same for each order and light, the closed form first.\n"
+        "A filtered image that --only names without its reference is compared with DIR's, if that was made with the\n"
+        "same settings, or else with one that is rendered for the purpose and not kept.\n"
+        "A finished image is in its place at once, and listed in sheet.partial.json until the sheet is whole. The\n"
+        "first one takes away sheet.json and sheet.png of an earlier sheet: what is interrupted leaves neither.");
+    command->callback([command, job] {
+        note_tolerance_without_effect(*command, job->has_auto_order());
+        run(*job);
+    });
 }
 
 } // namespace slopemix::cli

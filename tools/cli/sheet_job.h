@@ -27,11 +27,16 @@ struct SheetJob {
     bool resume = false;
     bool json = false;
 
-    // Widening orders of the per-lobe columns.
+    bool is_asked_for(std::int32_t order) const {
+        return std::find(widening_orders.begin(), widening_orders.end(), order) != widening_orders.end();
+    }
+    bool has_auto_order() const { return is_asked_for(SMX_WIDENING_AUTO); }
+
+    // Widening orders of the per-lobe columns, the closed form first.
     std::vector<std::int32_t> per_lobe_orders() const {
         std::vector<std::int32_t> orders = widening_orders;
-        const bool closed_form = std::find(orders.begin(), orders.end(), 0) != orders.end();
-        if (with_per_lobe && !closed_form) orders.insert(orders.begin(), 0);
+        std::erase(orders, 0);
+        if (with_per_lobe || is_asked_for(0)) orders.insert(orders.begin(), 0);
         return orders;
     }
 

@@ -11,6 +11,7 @@
 #include "exposure.h"
 #include "sheet_job.h"
 #include "text.h"
+#include "widening_json.h"
 
 namespace slopemix::cli {
 
@@ -53,8 +54,6 @@ std::vector<FitSummary> summaries(const SheetResult &result) {
     return all;
 }
 
-Json order_json(std::int32_t order) { return order == SMX_WIDENING_AUTO ? Json("auto") : Json(order); }
-
 const char *integrator_of(Role role) {
     switch (role) {
         case Role::geometry:
@@ -67,7 +66,14 @@ const char *integrator_of(Role role) {
     return "unknown";
 }
 
-Json image_json(const SheetEntry &entry) {
+// Of a filtered image, whose material is always fitted.
+std::uint32_t fitted_lobes(const SheetResult &result, const SheetImage &image) {
+    return std::find_if(result.fits.begin(), result.fits.end(),
+                        [&](const SheetFit &fit) { return fit.model == image.model && fit.lobes == image.lobes; })
+        ->report.lobes;
+}
+
+Json image_json(const SheetEntry &entry, const SheetResult &result) {
     const SheetImage &image = entry.image;
     const bool filtered = image.role == Role::filtered;
     Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
@@ -78,6 +84,8 @@ Json image_json(const SheetEntry &entry) {
     json["lobes"] = filtered ? Json(image.lobes) : Json();
     json["model"] = filtered ? Json(word_for(image.model, models)) : Json();
     json["widening_order"] = filtered ? order_json(image.widening_order) : Json();
+    json["widening_orders"] = filtered ? Json(orders_of(entry.report, fitted_lobes(result, image))) : Json();
+    json["unsettled"] = filtered ? Json(entry.report.unsettled) : Json();
     const bool reference = image.role == Role::reference;
     json["spp"] = reference ? Json(entry.report.spp) : Json();
     json["standard_error"] =
@@ -134,12 +142,12 @@ Json settings_json(const SheetJob &job, const SheetResult &result) {
     const RenderFlags &flags = job.flags;
     return {{"device", result.device},
             {"only", only_json(job)},
-            {"model", job.with_per_lobe ? "both" : "shared"},
+            {"model", job.per_lobe_orders().empty() ? "shared" : "both"},
             {"resolution", {flags.resolution.width, flags.resolution.height}},
             {"radii", job.radii},
             {"lobes", job.lobes},
             {"per_lobe_orders", orders_json(job.per_lobe_orders())},
-            {"widening_tolerance", flags.widening_tolerance},
+            {"widening_tolerance", tolerance_json(flags.widening_tolerance, job.has_auto_order())},
             {"spp", flags.target_error > 0.0 ? Json() : Json(flags.spp)},
             {"target_error", flags.target_error > 0.0 ? Json(flags.target_error) : Json()},
             {"sampler", word_for(flags.sampler, samplers)},
@@ -180,7 +188,7 @@ std::string sheet_json(const SheetJob &job, const SheetResult &result) {
     document["summary"] = summary_json(result);
     document["exposures"] = exposures_json(result);
     document["images"] = Json::array();
-    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(entry));
+    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(entry, result));
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
