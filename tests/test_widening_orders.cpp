@@ -231,7 +231,7 @@ TEST(WideningOrders, GrazingIsNotLost) {
         for (const double z : {1e-3, 1e-4, 1e-5}) pairs.add({0.0, 0.6, 0.8}, oracle::normalised({1.0, 0.0, z}));
         const std::vector<double> closed = eval(s, pairs, 0);
         for (const int order : {1, 2, 3, 8})
-            EXPECT_LT(relrmse(eval(s, pairs, order), closed), 1e-3) << "alpha " << alpha << ", order " << order;
+            EXPECT_LT(relrmse(eval(s, pairs, order), closed), 5e-3) << "alpha " << alpha << ", order " << order;
     }
 }
 
