@@ -489,8 +489,8 @@ typedef enum smx_grade {
 } smx_grade;
 
 /* How a lobe is widened by X: in closed form, order 0 (Dupuy 2015, chapter 5), or by n x n Gauss-Hermite nodes, order n
- * of 1..8, which converges to the integral over X's facets (docs/widening.md). Auto takes for every lobe the least order
- * that an estimate from a few pixels allows. */
+ * of 1..8, which converges to the integral over X's facets (docs/widening.md). Auto takes for every lobe the least
+ * order that an estimate from a few pixels allows. */
 #define SMX_WIDENING_MAX_ORDER 8
 #define SMX_WIDENING_AUTO (-1)
 
@@ -510,14 +510,16 @@ typedef struct smx_render_options {
                         and the same but for rounding */
     const char *exr_path; /* not NULL: the image is written to this EXR file as it comes, in bounded memory, and `image`
                              must be NULL. Atomic. Such a file lacks the attribute slopemix.standard_error */
-    smx_grade grade; /* not of smx_render_geometry */
+    smx_grade grade;      /* not of smx_render_geometry */
     int32_t widening_order; /* 0..8 or SMX_WIDENING_AUTO: how smx_render_filtered and smx_material_eval widen lobes */
-    double widening_tolerance; /* of SMX_WIDENING_AUTO: relRMSE that the widening may add to the image, 0 < it < 1; measured
-                                  against order 8, it is no better than that: about 0.003 */
+    double widening_tolerance; /* of SMX_WIDENING_AUTO: relRMSE that the widening may add to the image, 0 < it < 1;
+                                  measured against order 8, it is no better than that: about 0.003 */
 } smx_render_options;
-#define SMX_RENDER_OPTIONS_INIT \
-    { sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL, \
-      SMX_GRADE_PRECISE, 0, 0.02 }
+#define SMX_RENDER_OPTIONS_INIT                                                                                \
+    {                                                                                                          \
+        sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL, \
+            SMX_GRADE_PRECISE, 0, 0.02                                                                         \
+    }
 
 typedef struct smx_render_report {
     size_t size;
@@ -537,9 +539,9 @@ typedef struct smx_render_report {
 
 typedef struct smx_image_s *smx_image;
 
-/* The mixture widened by X, in closed form or as options->widening_order says, one evaluation per pixel. `report` may be NULL, and `image` must be where
- * options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED,
- * CANNOT_WRITE. */
+/* The mixture widened by X, in closed form or as options->widening_order says, one evaluation per pixel. `report` may
+ * be NULL, and `image` must be where options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD,
+ * DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED, CANNOT_WRITE. */
 SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
 
