@@ -7,6 +7,7 @@
 //   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
 #include "fresnel.clh"
 #include "mixture.clh"
+#include "pairs.clh"
 #include "rgb.clh"
 #include "sphere.clh"
 
@@ -51,12 +52,9 @@ __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global co
                                    Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
                                    __constant float *theta_d, int knots) {
     int at = W * (int)get_global_id(0);
-    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
-          iz = load_floatsW(0, wi + 2 * stride + at);
-    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
-          oz = load_floatsW(0, wo + 2 * stride + at);
-    Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
-    KnotPosition knot = knot_position(theta_d, knots, difference_angle(ix, iy, iz, ox, oy, oz));
+    PairsOfDirections d = load_pairs(wi, wo, stride, at);
+    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
+    KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
 
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE

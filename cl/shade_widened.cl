@@ -11,6 +11,7 @@
 #endif
 
 #include "fresnel.clh"
+#include "pairs.clh"
 #include "rgb.clh"
 #include "sphere.clh"
 #include "widen.clh"
@@ -51,7 +52,7 @@ __kernel void shade_widened_sphere(__global float4 *rgba, SphereView view, int f
             fcos = add_coloured(fcos, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z,
                                 widened_mixture(lobes, count, &e, &q));
 #endif
-            fcos = scaled(fcos, selectW((realW)0.0f, 0.25f * e.i.p, e.visible));
+            fcos = scaled(fcos, visible_quarter(&e));
             int lanes = lanes_of(q.unsettled && e.visible);
             if (lanes > 0) atomic_add(unsettled, lanes);
         }
@@ -65,13 +66,10 @@ __kernel void shade_widened_pairs(__global float *fcos, int stride, __global con
                                   __constant float *theta_d, int knots, FacetDensity facets,
                                   __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
     int at = W * (int)get_global_id(0);
-    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
-          iz = load_floatsW(0, wi + 2 * stride + at);
-    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
-          oz = load_floatsW(0, wo + 2 * stride + at);
-    Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
-    Quadrature q = quadrature(&facets, orders, nodes, &e, ix, iy, iz, ox, oy, oz);
-    KnotPosition knot = knot_position(theta_d, knots, difference_angle(ix, iy, iz, ox, oy, oz));
+    PairsOfDirections d = load_pairs(wi, wo, stride, at);
+    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
+    Quadrature q = quadrature(&facets, orders, nodes, &e, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
+    KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
 
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
@@ -84,7 +82,7 @@ __kernel void shade_widened_pairs(__global float *fcos, int stride, __global con
     sum = add_coloured(sum, fresnel_at(curves, &knot), fresnel_at(curves + knots, &knot),
                        fresnel_at(curves + 2 * knots, &knot), widened_mixture(lobes, count, &e, &q));
 #endif
-    sum = scaled(sum, selectW((realW)0.0f, 0.25f * e.i.p, e.visible));
+    sum = scaled(sum, visible_quarter(&e));
     store_floatsW(sum.r, 0, fcos + at);
     store_floatsW(sum.g, 0, fcos + stride + at);
     store_floatsW(sum.b, 0, fcos + 2 * stride + at);
@@ -98,12 +96,9 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
     int at = W * (int)get_global_id(0), entry = (int)get_global_id(1);
     int k = entry % count;
     if (at >= stride) return;
-    realW ix = load_floatsW(0, wi + at), iy = load_floatsW(0, wi + stride + at),
-          iz = load_floatsW(0, wi + 2 * stride + at);
-    realW ox = load_floatsW(0, wo + at), oy = load_floatsW(0, wo + stride + at),
-          oz = load_floatsW(0, wo + 2 * stride + at);
-    Evaluation e = evaluation(&x, ix, iy, iz, ox, oy, oz, ix + ox, iy + oy, iz + oz);
-    Quadrature q = quadrature(&facets, orders + entry - k, nodes, &e, ix, iy, iz, ox, oy, oz);
+    PairsOfDirections d = load_pairs(wi, wo, stride, at);
+    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
+    Quadrature q = quadrature(&facets, orders + entry - k, nodes, &e, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
 #if PER_LOBE
     realW value = widened_lobe(lobes, count, k, &e, &q);
 #else
@@ -113,5 +108,5 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
     else
         value = q.g2 * lobe_integral(&facets, &q.at, q.lobes + k, lobes, count, nodes, &q.unsettled);
 #endif
-    store_floatsW(value * selectW((realW)0.0f, 0.25f * e.i.p, e.visible), 0, values + entry * stride + at);
+    store_floatsW(value * visible_quarter(&e), 0, values + entry * stride + at);
 }
