@@ -594,7 +594,9 @@ SMX_API smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t
 SMX_API const float *smx_image_pixels(smx_image image);
 
 /* Standard errors of a reference that was rendered with options.errors, or read from such a file: of R, G and B, and
- * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. */
+ * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. They are those of a mean of
+ * eight: an interval is Student's, of 7 degrees of freedom. One of 95 % held the converged value in 94 % of the trials
+ * with 4096 samples (tests/test_coverage.cpp), and in 90 % with 256, where a pixel hangs on few bright samples. */
 SMX_API const float *smx_image_errors(smx_image image);
 
 /* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered
