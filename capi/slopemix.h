@@ -455,6 +455,11 @@ typedef struct smx_displacement {
     double mean_slope_x, mean_slope_y; /* finite, -1e4..1e4 */
 } smx_displacement;
 
+/* The surface with the slopes of x and of y, which are independent, such as two scales of roughness: means and
+ * covariances add, so that a material widened by the sum is one widened by x and then by y. `sum` may be x or y.
+ * Statuses: INVALID_ARGUMENT (also a sum that is out of range). */
+SMX_API smx_status smx_displacement_add(const smx_displacement *x, const smx_displacement *y, smx_displacement *sum);
+
 typedef enum smx_masking {
     SMX_G2_CORRELATED = 0, /* height-correlated Smith */
     SMX_G2_SEPARABLE = 1   /* G1(wi) G1(wo) */
