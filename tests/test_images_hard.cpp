@@ -174,6 +174,22 @@ TEST(ImagesHard, SumsOfAMillionSamples) {
     }
 }
 
+// Terms that are all alike round alike, time after time: a Lambertian on a surface that is nearly smooth, f cos known.
+TEST(ImagesHard, SumsOfAMillionEqualSamples) {
+    test::Brdf lambertian;
+    ASSERT_SMX_OK(smx_brdf_open("analytic:lambert,albedo=0.7", lambertian.out()));
+    const smx_displacement nearly_smooth{1e-5, 1e-5, 0.0, 0.0, 0.0};
+    const float wi[] = {0.6f, 0.0f, 0.8f}, wo[] = {0.0f, 0.28f, 0.96f};
+    for (const smx_sampler sampler : {SMX_SAMPLER_GRID, SMX_SAMPLER_SOBOL}) {
+        smx_render_options options = test::make_options(1 << 20, 3);
+        options.sampler = sampler;
+        float fcos[3];
+        ASSERT_SMX_OK(smx_brdf_integrate(test::context(), lambertian, &nearly_smooth, SMX_G2_CORRELATED, &options, 1,
+                                         wi, wo, fcos, nullptr, nullptr));
+        EXPECT_CLOSE(fcos[0], 0.7 / oracle::pi * 0.8, sum_tolerance, 0.0) << "sampler " << sampler;
+    }
+}
+
 // Metrics, quantiles and pictures of an image with one pixel of 1e30, or all but one black.
 TEST(ImagesHard, OneBrightPixel) {
     const float dim = 0.25f, bright = 1e30f;
