@@ -1,6 +1,9 @@
 #include "deviations.h"
 
+#include <Eigen/Sparse>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "per_lobe_problem.h"
 
@@ -56,18 +59,54 @@ void hold_bound(ceres::Problem &problem, const Block &block) {
         problem.SetManifold(block.values, new ceres::SubsetManifold(static_cast<int>(block.free.size()), held));
 }
 
-// Variances in the free directions' ambient coordinates; false where the problem is too ill-conditioned for this
-// method.
-bool compute(ceres::Problem &problem, const std::vector<Block> &blocks, ceres::CovarianceAlgorithmType algorithm,
-             std::vector<std::vector<double>> &variances) {
+// Variances of all parameters, [block][parameter], 0 of those that are held.
+using Variances = std::vector<std::vector<double>>;
+
+// The problem's derivatives by its free parameters, block by block.
+Eigen::SparseMatrix<double> jacobian(ceres::Problem &problem, const std::vector<Block> &blocks) {
+    ceres::Problem::EvaluateOptions order;
+    for (const Block &block : blocks)
+        if (block.free_count() > 0) order.parameter_blocks.push_back(block.values);
+    ceres::CRSMatrix rows;
+    problem.Evaluate(order, nullptr, nullptr, nullptr, &rows);
+    return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+        rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(), rows.cols.data(),
+        rows.values.data());
+}
+
+// Diagonal of the inverse of J'J = P R'R P', as squared norms of the rows of R's inverse; nothing where J does not
+// determine all parameters. (Ceres's own covariance writes to stderr there.)
+std::optional<Variances> by_qr(ceres::Problem &problem, const std::vector<Block> &blocks) {
+    const Eigen::SparseMatrix<double> j = jacobian(problem, blocks);
+    const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr(j);
+    const Eigen::Index n = j.cols();
+    if (qr.info() != Eigen::Success || qr.rank() < n) return {};
+    const Eigen::SparseMatrix<double> r = qr.matrixR().topLeftCorner(n, n);
+    std::vector<double> free(static_cast<std::size_t>(n));
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const Eigen::VectorXd row = r.transpose().triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(n, k));
+        free[static_cast<std::size_t>(qr.colsPermutation().indices()[k])] = row.squaredNorm();
+    }
+    Variances variances;
+    auto next = free.begin();
+    for (const Block &block : blocks) {
+        variances.emplace_back();
+        for (const bool is_free : block.free) variances.back().push_back(is_free ? *next++ : 0.0);
+    }
+    return variances;
+}
+
+// The same from the pseudo-inverse, which drops what nothing determines: slow.
+std::optional<Variances> by_svd(ceres::Problem &problem, const std::vector<Block> &blocks) {
     ceres::Covariance::Options options;
-    options.algorithm_type = algorithm;
-    options.null_space_rank = algorithm == ceres::DENSE_SVD ? -1 : 0; // drop what nothing determines
+    options.algorithm_type = ceres::DENSE_SVD;
+    options.null_space_rank = -1;
     ceres::Covariance covariance(options);
     std::vector<std::pair<const double *, const double *>> pairs;
     for (const Block &block : blocks)
         if (block.free_count() > 0) pairs.emplace_back(block.values, block.values);
-    if (!covariance.Compute(pairs, &problem)) return false;
+    if (!covariance.Compute(pairs, &problem)) return {};
+    Variances variances;
     for (const Block &block : blocks) {
         const std::size_t n = block.free.size();
         std::vector<double> matrix(n * n, 0.0);
@@ -75,7 +114,7 @@ bool compute(ceres::Problem &problem, const std::vector<Block> &blocks, ceres::C
         variances.emplace_back();
         for (std::size_t k = 0; k < n; ++k) variances.back().push_back(matrix[k * n + k]);
     }
-    return true;
+    return variances;
 }
 
 } // namespace
@@ -92,14 +131,13 @@ Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFi
     double half_square = 0.0;
     posed.problem().Evaluate({}, &half_square, nullptr, nullptr, nullptr);
 
-    std::vector<std::vector<double>> variances;
-    if (free == 0 || samples <= free ||
-        (!compute(posed.problem(), blocks, ceres::SPARSE_QR, variances) &&
-         !compute(posed.problem(), blocks, ceres::DENSE_SVD, variances)))
-        return {};
+    if (free == 0 || samples <= free) return {};
+    std::optional<Variances> variances = by_qr(posed.problem(), blocks);
+    if (!variances) variances = by_svd(posed.problem(), blocks);
+    if (!variances) return {};
     const double residual_variance = 2 * half_square / static_cast<double>(samples - free);
     const auto deviation = [&](std::size_t block, std::size_t k) {
-        return blocks[block].free[k] ? std::sqrt(residual_variance * variances[block][k]) : Deviations::held;
+        return blocks[block].free[k] ? std::sqrt(residual_variance * (*variances)[block][k]) : Deviations::held;
     };
     Deviations result;
     for (std::size_t k = 0; k < fit.alphas.size(); ++k) {

@@ -8,7 +8,7 @@
 
 namespace smx {
 
-// Standard deviations, from Ceres's covariance of the problem at the fit, scaled by the residual variance (residual sum
+// Standard deviations, from the covariance of the problem at the fit, scaled by the residual variance (residual sum
 // of squares over samples less free parameters). Parameters at a bound are held: they are not free and have none, nor
 // has an alpha whose lobe has no energy. The curves' are times `scale`, as the fit's curves are stored.
 Deviations deviations(const std::vector<DirectionLevel> &levels, const PerLobeFit &fit, double scale);

@@ -127,12 +127,23 @@ Candidate fit_automatically(const Table *table, const SlopeDensity &density, con
     return chosen;
 }
 
+// A table may be brighter than any material's curves go.
+void require_curves_in_range(const Material &m) {
+    for (const FresnelCurves &set : m.fresnel)
+        for (const std::vector<double> &curve : set)
+            for (const double value : curve)
+                if (value > max_fresnel)
+                    fail(Fault::NoSolution, m.name, ": the table is so bright that a Fresnel curve reaches ", value,
+                         "; a material's go to ", max_fresnel);
+}
+
 Material fit_any(const Table *table, const SlopeDensity &density, const FitOptions &options) {
     Lap lap;
     Candidate fitted = options.lobes == auto_lobes ? fit_automatically(table, density, options)
                                                    : fit_with(table, density, options.lobes, options);
     if (table) describe(table->data, options, fitted);
     fitted.material.report.check_seconds = lap.read() - fitted.material.report.seconds;
+    require_curves_in_range(fitted.material);
     validate(fitted.material);
     return std::move(fitted.material);
 }

@@ -11,9 +11,6 @@ namespace smx {
 
 namespace {
 
-// A float's range, with room for the product with a density.
-constexpr double max_fresnel = 1e20;
-
 constexpr double max_weight = 1e100; // 64 of them have a sum
 
 void validate_knots(const std::vector<double> &theta_d) {

@@ -12,6 +12,7 @@
 namespace smx {
 
 constexpr std::size_t max_lobes = 64;
+constexpr double max_fresnel = 1e20; // a float's range, with room for the product with a density
 constexpr double min_alpha = 1e-4, max_alpha = 1e4;
 
 enum class Model { Shared = 0, PerLobe = 1 };

@@ -260,15 +260,16 @@ TEST(FitHard, WhatHasNoAnswerIsAnError) {
     EXPECT_SMX_FAILS(SMX_NO_SOLUTION, "reflects nothing back", smx_density_create(brdf, nullptr, &density));
 }
 
-// All of a table in one row of theta_h, or one cell, whatever its unit: a sound material, or an error that says why.
+// All of a table in one row of theta_h, or one cell, whatever its unit: a sound material, or an error that says why;
+// and nothing printed, by the solver neither.
 TEST(FitHard, TablesOfOneRowOrCell) {
     constexpr std::size_t cells = std::size_t{90} * 90 * 180;
     struct Spot {
         std::size_t first, count; // cells
     };
-    for (const auto &[first, count] : {Spot{0, 16200}, Spot{45 * 16200, 16200}, Spot{89 * 16200, 16200}, Spot{0, 180},
-                                       Spot{30 * 16200, 180}, Spot{0, 1}})
-        for (const double value : {1e-300, 1e-30, 1.0, 1e30})
+    ::testing::internal::CaptureStderr();
+    for (const auto &[first, count] : {Spot{0, 16200}, Spot{89 * 16200, 16200}, Spot{0, 1}})
+        for (const double value : {1e-300, 1.0, 1e30})
             for (const smx_model model : {SMX_MODEL_SHARED, SMX_MODEL_PER_LOBE}) {
                 SCOPED_TRACE("cells from " + std::to_string(first) + ", " + std::to_string(count) + ", value " +
                              std::to_string(std::log10(value)) + ", model " + std::to_string(model));
@@ -286,9 +287,11 @@ TEST(FitHard, TablesOfOneRowOrCell) {
                 if (status == SMX_OK) status = smx_material_fit(density, &options, material.out());
                 if (status != SMX_OK) {
                     EXPECT_EQ(status, SMX_NO_SOLUTION) << smx_last_error();
+                    EXPECT_NE(value, 1.0) << smx_last_error();
                     continue;
                 }
                 expect_mixture(mixture_of(material), 3);
                 for (const double f : test::curves_of(material).fresnel) EXPECT_TRUE(std::isfinite(f) && f >= 0.0) << f;
             }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
