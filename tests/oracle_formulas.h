@@ -9,10 +9,8 @@
 namespace oracle {
 
 template <class T>
-T pi_of();
-template <>
-inline double pi_of() {
-    return 3.14159265358979323846;
+T pi_of() {
+    return T(3.14159265358979323846);
 }
 template <>
 inline long double pi_of() {
