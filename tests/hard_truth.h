@@ -95,6 +95,33 @@ bool may_have_density(const CaseOf<Dual> &c, const oracle::VecOf<Dual> &h, doubl
     return false;
 }
 
+// How much a density about a mean slope may change by the second derivative of its exponent, which is what counts at
+// its peak, where slopes are off by 4 epsilon of their terms. (About 0 they are off by a share of themselves, which the
+// condition number knows.)
+inline double second_order(const HardCase &c, const HardPair &pair, double epsilon) {
+    if (c.x.mean_x == 0.0 && c.x.mean_y == 0.0) return 0.0;
+    const double z = static_cast<double>(pair.wi[2]) + pair.wo[2];
+    const double x = (static_cast<double>(pair.wi[0]) + pair.wo[0]) / z;
+    const double y = (static_cast<double>(pair.wi[1]) + pair.wo[1]) / z;
+    const double off = 4 * epsilon * (std::hypot(x, y) + std::hypot(c.x.mean_x, c.x.mean_y));
+    double most = 0.0;
+    for (const oracle::Lobe &lobe : c.lobes) {
+        const double a2 = lobe.alpha * lobe.alpha, xx = c.x.alpha_x * c.x.alpha_x, yy = c.x.alpha_y * c.x.alpha_y;
+        const double determinant = xx * yy * (1.0 - c.x.rho * c.x.rho) + a2 * (xx + yy + a2);
+        if (determinant > 0.0) most = std::max(most, off * off * (xx + yy + 2 * a2) / determinant);
+    }
+    return most;
+}
+
+// A direction so low over a surface that is a mirror along an axis that the slope's spread seen from there, squared, is
+// below a float's range: s below 2^-63 counts as 0 (cl/beckmann.clh).
+inline bool is_spread_lost(const HardCase &c, const std::array<float, 3> &k) {
+    if (c.x.alpha_x > 0.0 && c.x.alpha_y > 0.0) return false;
+    bool has_mirror = false;
+    for (const oracle::Lobe &lobe : c.lobes) has_mirror = has_mirror || lobe.alpha == 0.0;
+    return has_mirror && k[2] > 0.0f && k[2] < 1e-17f;
+}
+
 // Every quantity of one pair.
 template <class T>
 std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &wi, const oracle::VecOf<T> &wo) {

@@ -33,6 +33,14 @@ float ndf(float alpha_x, float alpha_y, const Angles &m) {
     return std::exp(-tan2 * (c * c + s * s)) / (pi * alpha_x * alpha_y * cos2 * cos2);
 }
 
+// The red curve of the first set.
+float fresnel(float theta_d) {
+    const auto curve = hard_curve(0, 0);
+    std::size_t k = 0;
+    while (k + 2 < hard_knots && theta_d >= hard_theta_d[k + 1]) ++k;
+    return curve[k] + (curve[k + 1] - curve[k]) * (theta_d - hard_theta_d[k]) / (hard_theta_d[k + 1] - hard_theta_d[k]);
+}
+
 } // namespace
 
 std::vector<std::pair<std::size_t, double>> textbook(const HardCase &c, const HardPair &pair) {
@@ -55,7 +63,8 @@ std::vector<std::pair<std::size_t, double>> textbook(const HardCase &c, const Ha
             {quantity_lambda, lambda_i},
             {quantity_g1, 1.0f / (1.0f + lambda_i)},
             {quantity_g2, g2},
-            {quantity_theta_d, theta_d}};
+            {quantity_theta_d, theta_d},
+            {quantity_shared, fresnel(theta_d) * d * g2 / (4.0f * i.cosine * o.cosine) * i.cosine}};
 }
 
 } // namespace test
