@@ -1,6 +1,6 @@
 // Every number that the library computes, on the grid of hard cases, in three grades, against the oracle
-// (docs/stability.md). SLOPEMIX_HARD_POINTS says how many pairs of directions, SLOPEMIX_HARD_REPORT where to write the
-// tables.
+// (docs/stability.md). SLOPEMIX_HARD_POINTS says how many pairs of directions, SLOPEMIX_HARD_CHECKED what share of them
+// is evaluated at 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -30,8 +30,6 @@ constexpr double oracle_share = 0x1p-4;
 constexpr double smallest_float = 0x1p-126;
 constexpr std::size_t pairs_per_case = 1000;
 constexpr std::size_t report_every = 1000; // cases
-// One pair in so many is evaluated at 60 digits too: 1e6 of 1e8.
-constexpr std::size_t checked_every = 98;
 
 const auto constant = []<class T>(std::type_identity<T>) { return [](double value, std::size_t) { return T(value); }; };
 constexpr auto variable = [](double value, std::size_t index) { return Dual::variable(value, index); };
@@ -55,6 +53,16 @@ struct Truths {
     std::array<Big, test::quantities> at_60_digits(const HardPair &pair) const {
         return truth(big, pair, constant(std::type_identity<Big>()));
     }
+};
+
+double setting(const char *name, double by_default) {
+    const char *text = std::getenv(name);
+    return text ? std::atof(text) : by_default;
+}
+
+struct Settings {
+    double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
+    double checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01); // of the points, at 60 digits too
 };
 
 struct Results {
@@ -110,7 +118,8 @@ bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, cons
 using Values = std::vector<std::vector<double>>;
 
 void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &pairs,
-             const std::array<Values, 3> &values, std::size_t first, std::size_t step, Results &results) {
+             const std::array<Values, 3> &values, const Settings &settings, std::size_t first, std::size_t step,
+             Results &results) {
     const Truths truths(c);
     const bool is_textbook = c.x.rho == 0.0 && c.x.mean_x == 0.0 && c.x.mean_y == 0.0;
     for (std::size_t k = first; k < pairs.size(); k += step) {
@@ -122,7 +131,8 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
             if (!big) big = truths.at_60_digits(pairs[k]);
             return *big;
         };
-        if (++results.seen % checked_every == 0) check_oracle(wide, dual, at_60_digits(), results);
+        if (static_cast<double>(results.oracle_checked) < settings.checked_share * static_cast<double>(++results.seen))
+            check_oracle(wide, dual, at_60_digits(), results);
         const auto better = [&](std::size_t q) { return static_cast<double>(at_60_digits()[q]); };
         const auto see = [&](HardStatistics &statistics, const test::Promise &promise, std::size_t q, double got) {
             const auto wanted = static_cast<double>(wide[q]);
@@ -141,11 +151,6 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
         if (is_textbook)
             for (const auto &[q, got] : test::textbook(c, pairs[k])) see(results.textbook, test::promises[0], q, got);
     }
-}
-
-std::size_t points_wanted() {
-    const char *text = std::getenv("SLOPEMIX_HARD_POINTS");
-    return text ? static_cast<std::size_t>(std::atof(text)) : 200000;
 }
 
 void report(const Results &results) {
@@ -171,14 +176,14 @@ Results merged(const std::vector<Results> &parts) {
     return all;
 }
 
-Results run(std::size_t points) {
+Results run(const Settings &settings) {
     smx::Context context("", 0);
     std::vector<test::HardProbe> probes;
     const std::size_t grades = context.info().has_double ? 3 : 2;
     for (std::size_t g = 0; g < grades; ++g) probes.emplace_back(context, static_cast<smx::Grade>(g));
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
     std::vector<Results> parts(threads);
-    for (std::size_t index = 0; index * pairs_per_case < points; ++index) {
+    for (std::size_t index = 0; static_cast<double>(index * pairs_per_case) < settings.points; ++index) {
         const HardCase c = test::hard_case(index);
         const std::vector<HardPair> pairs = test::hard_pairs(c, pairs_per_case, index);
         std::array<Values, 3> values;
@@ -186,7 +191,7 @@ Results run(std::size_t points) {
         if (grades < 3) values[2] = values[0];
         std::vector<std::thread> pool;
         for (std::size_t t = 0; t < threads; ++t)
-            pool.emplace_back([&, t] { compare(index, c, pairs, values, t, threads, parts[t]); });
+            pool.emplace_back([&, t] { compare(index, c, pairs, values, settings, t, threads, parts[t]); });
         for (std::thread &thread : pool) thread.join();
         if (index % report_every == 0) report(merged(parts));
     }
@@ -198,11 +203,11 @@ Results run(std::size_t points) {
 } // namespace
 
 TEST(HardCases, AllNumbersAreAsPromised) {
-    const std::size_t points = points_wanted();
-    const Results results = run(points);
+    const Settings settings;
+    const Results results = run(settings);
     for (const HardStatistics &grade : results.grades) EXPECT_EQ(grade.failures(), 0u) << worst_of(grade);
-    EXPECT_GE(results.oracle_checked, points / 100);
+    EXPECT_GE(static_cast<double>(results.oracle_checked), 0.9 * settings.checked_share * settings.points);
     EXPECT_EQ(results.oracle_wrong, 0u) << "the oracle's own error: " << results.oracle_worst;
     // The same grid by the textbook's form: a checker that sees nothing there would see nothing here.
-    EXPECT_GT(results.textbook.failures(), points / 100) << worst_of(results.textbook);
+    EXPECT_GT(static_cast<double>(results.textbook.failures()), 0.01 * settings.points) << worst_of(results.textbook);
 }
