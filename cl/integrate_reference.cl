@@ -29,8 +29,8 @@ inline realW masking_factor(const Displacement *x, realW ix, realW iy, realW iz,
 
     // Lanes that are not visible work on harmless numbers and are dropped at the end.
     realW safe_i = selectW((realW)1.0f, p_i, visible), safe_o = selectW((realW)1.0f, p_o, visible);
-    realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma(safe_i, displacement_s2(x, ix, iy)),
-                              beckmann_sigma(safe_o, displacement_s2(x, ox, oy)));
+    realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma_beyond_p(safe_i, displacement_s2(x, ix, iy)),
+                              beckmann_sigma_beyond_p(safe_o, displacement_s2(x, ox, oy)));
     return selectW((realW)0.0f, factor, visible);
 }
 

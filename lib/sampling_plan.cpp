@@ -51,7 +51,7 @@ void validate(const RenderOptions &o) {
 }
 
 SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {
-    const PrincipalAxes x = principal_axes(displacement);
+    const PrincipalAxes x = rough_principal_axes(displacement);
     if (x.var_1 == 0.0 && x.var_2 == 0.0) return {1, {grid(1, 1)}};
     const std::uint32_t scrambles = sampler != Sampler::Grid && spp % (2 * scramble_count) == 0 ? scramble_count : 1;
     const std::uint32_t samples = spp / scrambles;
