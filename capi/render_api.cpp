@@ -11,6 +11,8 @@ namespace {
 
 Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
+smx_displacement to_c(const Displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
+
 Scene to_cpp(const smx_scene &s) {
     return {s.width, s.height, s.light_phi, to_cpp(s.displacement), static_cast<Masking>(s.masking)};
 }
@@ -71,6 +73,15 @@ smx_status render(smx_context context, const void *material, const char *materia
 } // namespace
 
 extern "C" {
+
+smx_status smx_displacement_add(const smx_displacement *x, const smx_displacement *y, smx_displacement *sum) {
+    return guarded([&] {
+        require_pointer(x, "x");
+        require_pointer(y, "y");
+        require_pointer(sum, "sum");
+        *sum = to_c(to_cpp(*x) + to_cpp(*y));
+    });
+}
 
 smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                const smx_render_options *options, smx_image *image, smx_render_report *report) {

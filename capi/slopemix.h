@@ -455,6 +455,11 @@ typedef struct smx_displacement {
     double mean_slope_x, mean_slope_y; /* finite, -1e4..1e4 */
 } smx_displacement;
 
+/* The surface with the slopes of x and of y, which are independent, such as two scales of roughness: means and
+ * covariances add, so that a material widened by the sum is one widened by x and then by y. `sum` may be x or y.
+ * Statuses: INVALID_ARGUMENT (also a sum that is out of range). */
+SMX_API smx_status smx_displacement_add(const smx_displacement *x, const smx_displacement *y, smx_displacement *sum);
+
 typedef enum smx_masking {
     SMX_G2_CORRELATED = 0, /* height-correlated Smith */
     SMX_G2_SEPARABLE = 1   /* G1(wi) G1(wo) */
@@ -594,7 +599,9 @@ SMX_API smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t
 SMX_API const float *smx_image_pixels(smx_image image);
 
 /* Standard errors of a reference that was rendered with options.errors, or read from such a file: of R, G and B, and
- * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. */
+ * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. They are those of a mean of
+ * eight: an interval is Student's, of 7 degrees of freedom. One of 95 % held the converged value in 94 % of the trials
+ * with 4096 samples (tests/test_coverage.cpp), and in 90 % with 256, where a pixel hangs on few bright samples. */
 SMX_API const float *smx_image_errors(smx_image image);
 
 /* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered

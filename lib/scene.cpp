@@ -31,6 +31,24 @@ void validate(const Displacement &x) {
     validate_mean("mean_slope_y", x.mean_slope_y);
 }
 
+Displacement operator+(const Displacement &x, const Displacement &y) {
+    validate(x);
+    validate(y);
+    Displacement sum = {std::hypot(x.alpha_x, y.alpha_x), std::hypot(x.alpha_y, y.alpha_y), 0.0,
+                        x.mean_slope_x + y.mean_slope_x, x.mean_slope_y + y.mean_slope_y};
+    if (sum.alpha_x > 0.0 && sum.alpha_y > 0.0) {
+        // By shares of the alphas, whose products may be too small for a number.
+        const auto share = [&](const Displacement &d) {
+            return d.rho * (d.alpha_x / sum.alpha_x) * (d.alpha_y / sum.alpha_y);
+        };
+        // The sum's slopes are no more correlated than either's (Cauchy, Schwarz); roundings could make them so.
+        const double most = std::max(std::abs(x.rho), std::abs(y.rho));
+        sum.rho = std::clamp(share(x) + share(y), -most, most);
+    }
+    validate(sum);
+    return sum;
+}
+
 void validate(Masking masking) {
     require(masking == Masking::Correlated || masking == Masking::Separable, "masking is ", static_cast<int>(masking),
             "; it must be 0 or 1");

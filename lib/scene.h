@@ -14,6 +14,10 @@ struct Displacement {
     double mean_slope_x = 0.0, mean_slope_y = 0.0;
 };
 
+// The surface that has the slopes of both, which are independent: means and covariances add. Throws InvalidArgument
+// where an alpha or a mean slope leaves its range.
+Displacement operator+(const Displacement &x, const Displacement &y);
+
 enum class Masking { Correlated = 0, Separable = 1 };
 
 struct Scene {

@@ -92,6 +92,29 @@ static void check_displacement(void) {
     refuse_scene("-0.25", &bad);
 }
 
+/* The same of a sum, which has a range of its own. */
+static void check_displacement_add(void) {
+    const smx_displacement x = {0.3, 0.0, 0.0, 0.5, 0.0}, y = {0.4, 0.2, 0.5, -1.0, 2.0};
+    smx_displacement sum = {-7.0, 0.0, 0.0, 0.0, 0.0}, bad = x;
+    INVALID("x is null", smx_displacement_add(NULL, &y, &sum));
+    INVALID("y is null", smx_displacement_add(&x, NULL, &sum));
+    INVALID("sum is null", smx_displacement_add(&x, &y, NULL));
+    bad.rho = 1.0;
+    INVALID("rho is 1", smx_displacement_add(&bad, &y, &sum));
+    INVALID("rho is 1", smx_displacement_add(&x, &bad, &sum));
+    bad = x;
+    bad.alpha_x = 9e3;
+    INVALID("alpha_x is 12727", smx_displacement_add(&bad, &bad, &sum));
+    bad = x;
+    bad.mean_slope_y = -9e3;
+    INVALID("mean_slope_y is -18000", smx_displacement_add(&bad, &bad, &sum));
+    CHECK(sum.alpha_x == -7.0);
+    OK(smx_displacement_add(&x, &y, &sum));
+    CHECK(sum.alpha_x == 0.5 && sum.alpha_y == 0.2);
+    CHECK(sum.mean_slope_x == -0.5 && sum.mean_slope_y == 2.0);
+    CHECK(fabs(sum.rho - 0.4) < 1e-15);
+}
+
 static void check_options(void) {
     const size_t sizes[] = WRONG_SIZES(smx_render_options);
     const smx_scene scene = SMX_SCENE_INIT;
@@ -328,6 +351,7 @@ int main(void) {
     material = c_material();
     check_scene();
     check_displacement();
+    check_displacement_add();
     check_options();
     check_widening();
     check_handles();
