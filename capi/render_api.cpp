@@ -45,7 +45,9 @@ void fill(smx_render_report *report, const RenderReport &r) {
 }
 
 ProposalSource proposal_of(smx_brdf brdf) {
-    return [proposal = brdf->proposal]() -> const std::vector<Lobe> & { return proposal->lobes(); };
+    return [proposal = brdf->proposal](std::optional<double> theta_d) -> const std::vector<Lobe> & {
+        return theta_d ? proposal->lobes(*theta_d) : proposal->lobes();
+    };
 }
 
 // What the three integrators have in common: arguments, and outputs that are written only at the end.

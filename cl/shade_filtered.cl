@@ -46,6 +46,23 @@ __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int 
     store_rgba(rgba + band_row * view.width + first_column, fcos, inside, view.width - first_column);
 }
 
+// f cos_i of pairs by their Fresnel curves: one set, or one per lobe (fresnel.clh).
+inline RgbW fcos_of_pair(__constant const Lobe *lobes, int count, __global const float *curves, int knots,
+                         const KnotPosition *knot, const Evaluation *e) {
+    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
+#if PER_LOBE
+    for (int k = 0; k < count; ++k) {
+        __global const float *curve = curves + 3 * k * knots;
+        sum = add_coloured(sum, fresnel_at(curve, knot), fresnel_at(curve + knots, knot),
+                           fresnel_at(curve + 2 * knots, knot), lobe_value(lobes + k, e));
+    }
+#else
+    sum = add_coloured(sum, fresnel_at(curves, knot), fresnel_at(curves + knots, knot),
+                       fresnel_at(curves + 2 * knots, knot), shared_value(lobes, count, e));
+#endif
+    return scaled(sum, common_factor(e));
+}
+
 // Pairs of directions as structure of arrays: wi, wo and fcos each [3][stride], stride a multiple of W. `curves` holds
 // one set of Fresnel curves or one per lobe (fresnel.clh), over the knots `theta_d`.
 __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global const float *wi, __global const float *wo,
@@ -56,18 +73,7 @@ __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global co
     Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
     KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
 
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-#if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        __global const float *curve = curves + 3 * k * knots;
-        sum = add_coloured(sum, fresnel_at(curve, &knot), fresnel_at(curve + knots, &knot),
-                           fresnel_at(curve + 2 * knots, &knot), lobe_value(lobes + k, &e));
-    }
-#else
-    sum = add_coloured(sum, fresnel_at(curves, &knot), fresnel_at(curves + knots, &knot),
-                       fresnel_at(curves + 2 * knots, &knot), shared_value(lobes, count, &e));
-#endif
-    sum = scaled(sum, common_factor(&e));
+    RgbW sum = fcos_of_pair(lobes, count, curves, knots, &knot, &e);
     store_floatsW(sum.r, 0, fcos + at);
     store_floatsW(sum.g, 0, fcos + stride + at);
     store_floatsW(sum.b, 0, fcos + 2 * stride + at);

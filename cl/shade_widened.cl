@@ -104,7 +104,7 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
 #else
     realW value;
     if (q.lobes[k].order == 0)
-        value = lobes[k].peak * lobe_shape(lobes + k, &e.h) * e.h.inv_cos4 * mixture_g2(lobes, count, &e);
+        value = ndf_of(add_p22((realW)0.0f, lobes + k, &e.h), &e.h) * mixture_g2(lobes, count, &e);
     else
         value = q.g2 * lobe_integral(&facets, &q.at, q.lobes + k, lobes, count, nodes, &q.unsettled);
 #endif

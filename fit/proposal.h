@@ -1,6 +1,8 @@
-// The mixture that the reference's sampler mis draws from: a table's own, fitted when it is first asked for.
+// The mixture about the half vector that the reference's sampler mis draws from: fitted to the measured table itself,
+// for the theta_d at which it is asked for.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -14,13 +16,17 @@ class Proposal {
   public:
     explicit Proposal(std::shared_ptr<const Brdf> brdf) : brdf_(std::move(brdf)) {}
 
-    // The shared model's lobes. Throws NoSolution for a table that cannot be fitted.
+    // Weights sum to 1. Of the table's row nearest to theta_d, radians, or of all rows together. Empty where the table
+    // is black there.
+    const std::vector<Lobe> &lobes(double theta_d);
     const std::vector<Lobe> &lobes();
 
   private:
+    const std::vector<Lobe> &of_rows(std::size_t first, std::size_t count);
+
     std::shared_ptr<const Brdf> brdf_;
-    std::once_flag fitted_;
-    std::vector<Lobe> lobes_;
+    std::mutex mutex_;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Lobe>> fitted_; // by rows
 };
 
 } // namespace smx

@@ -13,17 +13,27 @@ namespace {
 
 constexpr const char *kernel_file = "integrate_reference.cl", *drawing_file = "draw_facets.cl";
 
-// Facets drawn and integrated per launch: a whole number of the kernel's summation blocks, so that the sums do not
-// depend on it, and few enough that progress is told and a cancel heard several times a second.
-constexpr std::uint32_t summation_block = 256;
-constexpr std::uint64_t launch_evaluations = 1u << 26;
-constexpr std::size_t facet_planes = 5; // the most that draw_facets.cl writes
-constexpr std::size_t pair_reals = 21;  // of a Pair in cl/facet_integral.clh
+constexpr std::size_t planes_of_x = 5, planes_about_wh = 4; // that draw_facets.cl writes
 
-std::uint32_t facets_per_launch(std::size_t items, const SamplingPlan &plan) {
-    const std::uint64_t wanted = launch_evaluations / items / summation_block * summation_block;
-    const std::uint64_t most = std::clamp<std::uint64_t>(wanted, summation_block, 1u << 18);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, plan.samples_per_scramble()));
+// An Estimate in cl/facet_integral.clh.
+struct DeviceEstimate {
+    cl_float4 sum, rest, mean, deviations;
+};
+
+std::size_t facets_of(const std::vector<Part> &parts) {
+    const Part &largest = parts.front();
+    return static_cast<std::size_t>(largest.scrambles) * static_cast<std::size_t>(largest.slots);
+}
+
+// By pass, of every scramble.
+std::vector<cl::Buffer> seeds_of(const Context &device, const SamplingPlan &plan, std::uint64_t seed) {
+    std::vector<cl::Buffer> buffers;
+    for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+        std::vector<cl_uint> seeds;
+        for (std::uint32_t s = 0; s < plan.scrambles; ++s) seeds.push_back(pass_seed(seed, s, pass));
+        buffers.push_back(buffer_from(device, seeds));
+    }
+    return buffers;
 }
 
 // The proposal as draw_about_z takes it: cumulated weights and alphas.
@@ -32,7 +42,7 @@ std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
     double sum = 0.0;
     for (const auto &[weight, alpha] : lobes)
         out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
-    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // a buffer cannot be empty
+    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // whose facets the density of 0 gives no weight
     return out;
 }
 
@@ -40,10 +50,6 @@ std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
 template <typename Real>
 Real table_row(const Scene &scene) {
     return static_cast<Real>(theta_d(scene) / (std::numbers::pi / 2) * Brdf::theta_d_count);
-}
-
-cl::Buffer buffer_of_reals(const Context &device, Grade grade, std::size_t count) {
-    return with_real(grade, [&](auto real) { return empty_buffer<decltype(real)>(device, count); });
 }
 
 cl::Buffer plane_buffer(const Context &device, const std::vector<float> *planes) {
@@ -73,148 +79,109 @@ double RowErrors::relative() const {
 FacetIntegral::FacetIntegral(Context &device, const IntegralTask &task, std::uint32_t most_rows)
     : device_(device),
       task_(task),
+      parts_(sampling_parts(task.plan, std::size_t{most_rows} * task.row_items, device.width(), task.tiling.facets)),
       most_items_(std::size_t{most_rows} * task.row_items),
-      per_launch_(facets_per_launch(most_items_, task.plan)),
-      stride_(static_cast<std::uint32_t>(round_up(per_launch_, device.width()))),
-      facets_(empty_buffer<float>(device, facet_planes * stride_)),
-      pairs_(buffer_of_reals(device, task.grade, pair_reals * most_items_)),
+      stride_(static_cast<std::uint32_t>(round_up(facets_of(parts_), device.width()))),
+      of_x_(empty_buffer<float>(device, planes_of_x * stride_)),
+      about_wh_(empty_buffer<float>(device, task.plan.passes.size() > 1 ? planes_about_wh * stride_ : 1)),
       table_(buffer_from(device, *task.table)),
       lobes_(buffer_from(device, cumulated(*task.proposal))),
       density_(buffer_from(device, proposal_table(*task.proposal))),
-      sums_(empty_buffer<cl_float4>(device, most_items_)),
-      rests_(empty_buffer<cl_float4>(device, most_items_)),
-      means_(empty_buffer<cl_float4>(device, most_items_)),
-      deviations_(empty_buffer<cl_float4>(device, most_items_)),
+      estimates_(empty_buffer<DeviceEstimate>(device, parts_.size() > 1 ? most_items_ : 1)),
       rgba_(empty_buffer<cl_float4>(device, most_items_)),
       errors_(empty_buffer<cl_float4>(device, most_items_)),
       wi_(plane_buffer(device, task.pairs ? &task.pairs->wi : nullptr)),
-      wo_(plane_buffer(device, task.pairs ? &task.pairs->wo : nullptr)) {
-    const Defines defines = {{"GRADE", static_cast<int>(task.grade)},
-                             {"G2_SEPARABLE", task.masking == Masking::Separable},
-                             {"LOOKUP_NEAREST", task.lookup == Lookup::Nearest},
-                             {"TABLE_WHOLE", task.whole_table}};
-    for (const Pass &pass : task.plan.passes)
-        passes_.push_back({drawing_kernel(pass), integrating_kernel(pass, defines)});
-    make_outer_kernels(defines);
-    // Lanes past the last facet are computed and dropped, so what they read must be numbers.
-    device.queue().enqueueFillBuffer(facets_, 0.0f, 0, facet_planes * stride_ * sizeof(float));
-    device.queue().enqueueFillBuffer(sums_, 0.0f, 0, most_items_ * sizeof(cl_float4));
-    device.queue().enqueueFillBuffer(rests_, 0.0f, 0, most_items_ * sizeof(cl_float4));
+      wo_(plane_buffer(device, task.pairs ? &task.pairs->wo : nullptr)),
+      seeds_(seeds_of(device, task.plan, task.seed)),
+      integrate_(integrating_kernel()) {
+    for (std::size_t pass = 0; pass < task.plan.passes.size(); ++pass) {
+        const cl::Buffer &facets = pass == 0 ? of_x_ : about_wh_;
+        draw_.push_back(drawing_kernel(pass, facets));
+        // Empty slots are computed and dropped, so what is read there must be numbers.
+        device.queue().enqueueFillBuffer(facets, 0.0f, 0, facets.getInfo<CL_MEM_SIZE>());
+    }
 }
 
-cl::Kernel FacetIntegral::drawing_kernel(const Pass &pass) {
+cl::Kernel FacetIntegral::drawing_kernel(std::size_t index, const cl::Buffer &facets) {
+    const Pass &pass = task_.plan.passes[index];
     const char *names[] = {"draw_grid", "draw_sobol", "draw_about_z"};
     cl::Kernel kernel = device_.kernel(drawing_file, names[static_cast<int>(pass.drawing)]);
-    kernel.setArg(0, facets_);
+    kernel.setArg(0, facets);
     kernel.setArg(1, static_cast<cl_int>(stride_));
+    kernel.setArg(3, seeds_[index]);
     if (pass.drawing == Drawing::AboutZ) {
-        kernel.setArg(5, lobes_);
-        kernel.setArg(6, static_cast<cl_int>(task_.proposal->size()));
-        kernel.setArg(7, density_);
+        kernel.setArg(4, lobes_);
+        kernel.setArg(5, static_cast<cl_int>(std::max<std::size_t>(task_.proposal->size(), 1)));
+        kernel.setArg(6, density_);
     } else {
-        kernel.setArg(5, to_device(task_.displacement));
+        kernel.setArg(4, to_device(task_.displacement));
     }
     if (pass.drawing == Drawing::Grid) {
-        kernel.setArg(6, static_cast<cl_uint>(pass.strata_1));
-        kernel.setArg(7, static_cast<cl_uint>(pass.strata_2));
+        kernel.setArg(5, static_cast<cl_uint>(pass.strata_1));
+        kernel.setArg(6, static_cast<cl_uint>(pass.strata_2));
     }
     return kernel;
 }
 
-cl::Kernel FacetIntegral::integrating_kernel(const Pass &pass, Defines defines) {
-    defines["TECHNIQUE"] = static_cast<int>(pass.technique);
-    cl::Kernel kernel = device_.kernel(kernel_file, "integrate_reference", defines);
-    kernel.setArg(0, sums_);
-    kernel.setArg(1, rests_);
-    kernel.setArg(2, pairs_);
+cl::Kernel FacetIntegral::integrating_kernel() {
+    const Defines defines = {{"GRADE", static_cast<int>(task_.grade)},
+                             {"G2_SEPARABLE", task_.masking == Masking::Separable},
+                             {"LOOKUP_NEAREST", task_.lookup == Lookup::Nearest},
+                             {"TABLE_WHOLE", task_.whole_table},
+                             {"BALANCED", task_.plan.passes.size() > 1},
+                             {"SLICE_SUMS", static_cast<int>(scrambles_per_vector(task_.plan, device_.width()))}};
+    cl::Kernel kernel = device_.kernel(kernel_file, task_.scene ? "integrate_sphere" : "integrate_pairs", defines);
+    kernel.setArg(0, rgba_);
+    kernel.setArg(1, errors_);
+    kernel.setArg(2, estimates_);
     set_arg(kernel, 4, task_.displacement, task_.grade);
     kernel.setArg(5, table_);
     kernel.setArg(6, density_);
-    kernel.setArg(7, facets_);
-    kernel.setArg(8, static_cast<cl_int>(stride_));
+    kernel.setArg(7, of_x_);
+    kernel.setArg(8, about_wh_);
+    kernel.setArg(9, static_cast<cl_int>(stride_));
+    if (task_.scene) {
+        set_arg(kernel, 11, *task_.scene, task_.grade);
+        with_real(task_.grade, [&](auto real) { kernel.setArg(12, table_row<decltype(real)>(*task_.scene)); });
+    } else {
+        kernel.setArg(12, wi_);
+        kernel.setArg(13, wo_);
+        kernel.setArg(14, static_cast<cl_int>(task_.pairs->stride));
+    }
     return kernel;
 }
 
-// What comes before and after the samples.
-void FacetIntegral::make_outer_kernels(Defines defines) {
-    defines["TECHNIQUE"] = static_cast<int>(task_.plan.passes[0].technique); // any that is built already
-    prepare_ = device_.kernel(kernel_file, task_.scene ? "prepare_sphere" : "prepare_pairs", defines);
-    prepare_.setArg(0, pairs_);
-    set_arg(prepare_, 2, task_.displacement, task_.grade);
-    if (task_.scene) {
-        set_arg(prepare_, 3, *task_.scene, task_.grade);
-        with_real(task_.grade, [&](auto real) { prepare_.setArg(4, table_row<decltype(real)>(*task_.scene)); });
-    } else {
-        prepare_.setArg(4, wi_);
-        prepare_.setArg(5, wo_);
-        prepare_.setArg(6, static_cast<cl_int>(task_.pairs->stride));
+void FacetIntegral::draw(const Part &part) {
+    if (drawn_) return;
+    for (cl::Kernel &kernel : draw_) {
+        kernel.setArg(2, part);
+        seconds_ +=
+            launch(device_, kernel, static_cast<std::size_t>(part.scrambles) * part.slots, 1, task_.tiling.work_group);
     }
-
-    fold_ = device_.kernel(kernel_file, "fold_scramble", defines);
-    fold_.setArg(0, sums_);
-    fold_.setArg(1, rests_);
-    fold_.setArg(2, means_);
-    fold_.setArg(3, deviations_);
-    fold_.setArg(4, 1.0f / static_cast<float>(task_.plan.samples_per_scramble()));
-
-    finish_ = device_.kernel(kernel_file, "finish_reference", defines);
-    finish_.setArg(0, rgba_);
-    finish_.setArg(1, errors_);
-    finish_.setArg(2, means_);
-    finish_.setArg(3, deviations_);
-    finish_.setArg(4, pairs_);
-    finish_.setArg(6, static_cast<cl_int>(task_.plan.scrambles));
+    drawn_ = parts_.size() == 1;
 }
 
-void FacetIntegral::run(const cl::Kernel &kernel, std::size_t columns, std::size_t rows) {
-    seconds_ += launch(device_, kernel, columns, rows, task_.tiling.work_group);
-}
-
-void FacetIntegral::prepare(const Tile &tile) {
+void FacetIntegral::add(const Part &part, const Tile &tile) {
     const std::size_t lanes = device_.width();
-    prepare_.setArg(1, static_cast<cl_int>(tile.first_row));
-    if (task_.scene) {
-        run(prepare_, round_up(task_.row_items, lanes) / lanes, tile.rows);
-    } else {
-        prepare_.setArg(3, static_cast<cl_int>(tile.rows));
-        run(prepare_, round_up(tile.rows, lanes) / lanes);
-    }
-}
-
-void FacetIntegral::run_pass(std::size_t index, std::uint32_t scramble, std::size_t items,
-                             const std::function<void(std::uint32_t)> &done) {
-    const std::uint32_t samples = task_.plan.passes[index].samples;
-    PassKernels &kernels = passes_[index];
-    for (std::uint32_t first = 0; first < samples; first += per_launch_) {
-        const std::uint32_t size = std::min(per_launch_, samples - first);
-        kernels.draw.setArg(2, static_cast<cl_uint>(first));
-        kernels.draw.setArg(3, static_cast<cl_uint>(size));
-        kernels.draw.setArg(4, static_cast<cl_uint>(pass_seed(task_.seed, scramble, index)));
-        run(kernels.draw, size);
-        kernels.integrate.setArg(3, static_cast<cl_int>(items));
-        kernels.integrate.setArg(9, static_cast<cl_int>(size));
-        run(kernels.integrate, items);
-        done(size);
-    }
+    integrate_.setArg(3, part);
+    integrate_.setArg(10, static_cast<cl_int>(tile.first_row));
+    if (!task_.scene) integrate_.setArg(11, static_cast<cl_int>(tile.rows));
+    const std::size_t columns = task_.scene ? task_.row_items : tile.rows, rows = task_.scene ? tile.rows : 1;
+    // A work-item of several pixels has work enough to be a group of its own.
+    const std::uint32_t group = task_.tiling.work_group || lanes == 1 ? task_.tiling.work_group : 1;
+    seconds_ += launch(device_, integrate_, round_up(columns, lanes) / lanes, rows, group);
 }
 
 double FacetIntegral::integrate(const Tile &tile, const TileRows &to, RowErrors &seen, const Step &step) {
     const std::size_t row_items = task_.row_items, items = tile.rows * row_items;
     const double before = seconds_;
-    prepare(tile);
-    std::uint64_t drawn = 0;
-    for (std::uint32_t scramble = 0; scramble < task_.plan.scrambles; ++scramble) {
-        for (std::size_t pass = 0; pass < passes_.size(); ++pass)
-            run_pass(pass, scramble, items, [&](std::uint32_t size) {
-                drawn += size;
-                step(static_cast<double>(drawn) / task_.plan.samples());
-            });
-        fold_.setArg(5, static_cast<cl_int>(items));
-        fold_.setArg(6, static_cast<cl_int>(scramble + 1));
-        run(fold_, items);
+    double done = 0.0;
+    for (const Part &part : parts_) {
+        draw(part);
+        add(part, tile);
+        done += static_cast<double>(part.scrambles) * part.size;
+        step(std::min(done / task_.plan.scrambles / task_.plan.passes[0].samples, 1.0));
     }
-    finish_.setArg(5, static_cast<cl_int>(items));
-    run(finish_, items);
 
     unkept_errors_.resize(to.errors ? 0 : 4 * items);
     float *errors = to.errors ? to.errors : unkept_errors_.data();

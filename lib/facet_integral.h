@@ -4,12 +4,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "material.h"
 #include "render.h"
-#include "sampling_plan.h"
+#include "sampling_parts.h"
 
 namespace smx {
 
@@ -55,24 +54,21 @@ class FacetIntegral {
     double integrate(const Tile &tile, const TileRows &to, RowErrors &seen, const Step &step);
 
   private:
-    struct PassKernels {
-        cl::Kernel draw, integrate;
-    };
-    cl::Kernel drawing_kernel(const Pass &pass);
-    cl::Kernel integrating_kernel(const Pass &pass, Defines defines);
-    void make_outer_kernels(Defines defines);
-    void prepare(const Tile &tile);
-    void run_pass(std::size_t index, std::uint32_t scramble, std::size_t items,
-                  const std::function<void(std::uint32_t)> &done);
-    void run(const cl::Kernel &kernel, std::size_t columns, std::size_t rows = 1);
+    cl::Kernel drawing_kernel(std::size_t pass, const cl::Buffer &facets);
+    cl::Kernel integrating_kernel();
+    void draw(const Part &part);
+    void add(const Part &part, const Tile &tile);
 
     Context &device_;
     const IntegralTask &task_;
+    std::vector<Part> parts_;
     std::size_t most_items_;
-    std::uint32_t per_launch_, stride_;
-    cl::Buffer facets_, pairs_, table_, lobes_, density_, sums_, rests_, means_, deviations_, rgba_, errors_, wi_, wo_;
-    std::vector<PassKernels> passes_;
-    cl::Kernel prepare_, fold_, finish_;
+    std::uint32_t stride_;
+    cl::Buffer of_x_, about_wh_, table_, lobes_, density_, estimates_, rgba_, errors_, wi_, wo_;
+    std::vector<cl::Buffer> seeds_; // by pass
+    std::vector<cl::Kernel> draw_;  // by pass
+    cl::Kernel integrate_;
+    bool drawn_ = false; // all facets lie in their buffers
     std::vector<float> unkept_errors_;
     double seconds_ = 0.0;
 };

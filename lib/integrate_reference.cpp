@@ -51,9 +51,7 @@ RenderReport integrate_to_target(const RenderOptions &options, IntegralTask &tas
 }
 
 bool draws_about_wh(const Displacement &displacement, const RenderOptions &options) {
-    const std::vector<Pass> passes = sampling_plan(displacement, options.sampler, options.spp).passes;
-    return std::any_of(passes.begin(), passes.end(),
-                       [](const Pass &pass) { return pass.technique == Technique::AboutWhBalanced; });
+    return sampling_plan(displacement, options.sampler, options.spp).passes.size() > 1;
 }
 
 IntegralTask task_of(const Displacement &displacement, Masking masking, const RenderOptions &options) {
@@ -143,7 +141,7 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     report_progress(options, 0.0);
 
     const bool about_wh = draws_about_wh(scene.displacement, options);
-    const std::vector<Lobe> proposal = about_wh ? source() : std::vector<Lobe>{};
+    const std::vector<Lobe> proposal = about_wh ? source(theta_d(scene)) : std::vector<Lobe>{};
     const std::vector<float> table =
         options.whole_table ? table_whole(brdf) : table_slice(brdf, theta_d(scene), options.lookup);
     IntegralTask task = task_of(scene.displacement, scene.masking, options);
@@ -188,7 +186,7 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     if (count == 0) return timer.finish(context, 0.0, 0);
 
     const bool about_wh = draws_about_wh(displacement, options);
-    const std::vector<Lobe> proposal = about_wh ? source() : std::vector<Lobe>{};
+    const std::vector<Lobe> proposal = about_wh ? source(std::nullopt) : std::vector<Lobe>{};
     const std::vector<float> table = table_whole(brdf);
     const PairPlanes pairs = planes_of(wi, wo, count, context.width());
     IntegralTask task = task_of(displacement, masking, options);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "brdf.h"
@@ -10,11 +11,13 @@
 
 namespace smx {
 
-using ProposalSource = std::function<const std::vector<Lobe> &()>;
+// The mixture that Sampler::Mis draws from about the half vector, at a theta_d or, without one, for all of them. Empty
+// where nothing is reflected.
+using ProposalSource = std::function<const std::vector<Lobe> &(std::optional<double> theta_d)>;
 
 // The sphere. options.spp samples per pixel, or as many as options.target_error needs. Where X has roughness along one
-// axis only, all samples go along it; where it has none, one is exact. `proposal` is the mixture that Sampler::Mis
-// draws from about the half vector, asked for only where it is drawn from.
+// axis only, all samples go along it; where it has none, one is exact. `proposal` is asked for only where it is drawn
+// from.
 Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalSource &proposal, const Scene &scene,
                              const RenderOptions &options);
 

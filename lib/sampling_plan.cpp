@@ -18,7 +18,7 @@ std::uint32_t square_side(std::uint32_t spp) {
 }
 
 Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
-    return {Technique::FromX, Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
+    return {Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
 }
 
 } // namespace
@@ -51,7 +51,7 @@ void validate(const RenderOptions &o) {
 }
 
 SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {
-    const PrincipalAxes x = principal_axes(displacement);
+    const PrincipalAxes x = rough_principal_axes(displacement);
     if (x.var_1 == 0.0 && x.var_2 == 0.0) return {1, {grid(1, 1)}};
     const std::uint32_t scrambles = sampler != Sampler::Grid && spp % (2 * scramble_count) == 0 ? scramble_count : 1;
     const std::uint32_t samples = spp / scrambles;
@@ -59,11 +59,9 @@ SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, st
     if (x.var_1 == 0.0) return {scrambles, {grid(1, samples)}};
     switch (sampler) {
         case Sampler::Sobol:
-            return {scrambles, {{Technique::FromX, Drawing::Sobol, samples}}};
+            return {scrambles, {{Drawing::Sobol, samples}}};
         case Sampler::Mis:
-            return {scrambles,
-                    {{Technique::FromXBalanced, Drawing::Sobol, samples / 2},
-                     {Technique::AboutWhBalanced, Drawing::AboutZ, samples / 2}}};
+            return {scrambles, {{Drawing::Sobol, samples / 2}, {Drawing::AboutZ, samples / 2}}};
         case Sampler::Grid:
             break;
     }

@@ -9,15 +9,11 @@
 
 namespace smx {
 
-// As TECHNIQUE in cl/integrate_reference.cl.
-enum class Technique { FromX = 0, FromXBalanced = 1, AboutWhBalanced = 2 };
-
 enum class Drawing { Grid, Sobol, AboutZ };
 
 constexpr std::uint32_t max_spp = 1u << 24;
 
 struct Pass {
-    Technique technique;
     Drawing drawing;
     std::uint32_t samples;
     std::uint32_t strata_1 = 1, strata_2 = 1; // of a grid
@@ -25,7 +21,7 @@ struct Pass {
 
 struct SamplingPlan {
     std::uint32_t scrambles;  // 1: no estimate of the error
-    std::vector<Pass> passes; // of every scramble
+    std::vector<Pass> passes; // of every scramble: facets of X, then perhaps as many about wh
     std::uint32_t samples_per_scramble() const;
     std::uint32_t samples() const { return scrambles * samples_per_scramble(); }
 };

@@ -62,6 +62,18 @@ void validate(const Scene &s) {
     validate(s.displacement);
 }
 
+PrincipalAxes principal_axes(const Displacement &x) {
+    const double xx = x.alpha_x * x.alpha_x, yy = x.alpha_y * x.alpha_y, xy = x.rho * x.alpha_x * x.alpha_y;
+    if (xy == 0.0) return {1.0, 0.0, xx, yy};
+    // The larger root by a sum, the smaller as the determinant over it, so that neither cancels.
+    const double half = (xx - yy) / 2, radius = std::hypot(half, xy);
+    const double larger = (xx + yy) / 2 + radius, smaller = xx * yy * (1.0 - x.rho) * (1.0 + x.rho) / larger;
+    // The first axis is along (xx - smaller, xy) and (xy, yy - smaller): the one whose difference is the larger.
+    const double along = std::abs(half) + radius, length = std::hypot(along, xy);
+    if (half >= 0.0) return {along / length, xy / length, larger, smaller};
+    return {xy / length, along / length, larger, smaller};
+}
+
 namespace {
 
 // A variance this small (an alpha of 1e-9) is none: it is lost beside any lobe's, of alpha 1e-4 at the least, and its
@@ -70,30 +82,16 @@ double significant(double variance) { return variance < 1e-18 ? 0.0 : variance; 
 
 } // namespace
 
-PrincipalAxes principal_axes(const Displacement &x) {
-    const double xx = significant(x.alpha_x * x.alpha_x), yy = significant(x.alpha_y * x.alpha_y);
-    const double xy = xx > 0.0 && yy > 0.0 ? x.rho * x.alpha_x * x.alpha_y : 0.0;
-    if (xy == 0.0) return {1.0, 0.0, xx, yy};
-    // The larger root by a sum, the smaller as the determinant over it, so that neither cancels.
-    const double half = (xx - yy) / 2, radius = std::hypot(half, xy);
-    const double larger = (xx + yy) / 2 + radius, smaller = xx * yy * (1.0 - x.rho) * (1.0 + x.rho) / larger;
-    const double angle = std::atan2(xy, half) / 2;
-    return {std::cos(angle), std::sin(angle), larger, significant(smaller)};
+PrincipalAxes rough_principal_axes(const Displacement &x) {
+    const auto [axis_x, axis_y, var_1, var_2] = principal_axes(x);
+    return {axis_x, axis_y, significant(var_1), significant(var_2)};
 }
 
 template <typename Real>
 DeviceDisplacement<Real> to_device(const Displacement &x) {
     const PrincipalAxes axes = principal_axes(x);
     const auto f = [](double v) { return static_cast<Real>(v); };
-    return {f(x.mean_slope_x),
-            f(x.mean_slope_y),
-            f(x.alpha_x * x.alpha_x),
-            f(x.rho * x.alpha_x * x.alpha_y),
-            f(x.alpha_y * x.alpha_y),
-            f(axes.axis_x),
-            f(axes.axis_y),
-            f(axes.var_1),
-            f(axes.var_2)};
+    return {f(x.mean_slope_x), f(x.mean_slope_y), f(axes.axis_x), f(axes.axis_y), f(axes.var_1), f(axes.var_2)};
 }
 
 template DeviceDisplacement<float> to_device(const Displacement &);

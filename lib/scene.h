@@ -38,7 +38,6 @@ void validate(const Scene &scene);
 template <typename Real = float>
 struct DeviceDisplacement {
     Real mean_x, mean_y;
-    Real cov_xx, cov_xy, cov_yy;
     Real axis_x, axis_y;
     Real var_1, var_2;
 };
@@ -52,12 +51,16 @@ struct DeviceView {
     Real wh_x, wh_y;
 };
 
-// Covariance and principal axes, in double before they are rounded.
+// Principal axes of the covariance, in double before they are rounded; exact at any ratio of the alphas and any rho.
 struct PrincipalAxes {
     double axis_x, axis_y; // unit vector along the first
     double var_1, var_2;   // twice the variances: alphas squared
 };
 PrincipalAxes principal_axes(const Displacement &displacement);
+
+// The same with a variance of 0 where X alone is as good as smooth: for facets that are drawn, and quadratures over
+// them.
+PrincipalAxes rough_principal_axes(const Displacement &displacement);
 
 template <typename Real = float>
 DeviceDisplacement<Real> to_device(const Displacement &displacement);

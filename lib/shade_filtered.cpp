@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <numbers>
 
 #include "choose_orders.h"
 #include "device_buffer.h"
+#include "device_lobe.h"
 #include "direction_pairs.h"
 #include "error.h"
 #include "widening.h"
@@ -14,28 +14,6 @@
 namespace smx {
 
 namespace {
-
-// As in cl/mixture.clh.
-template <typename Real>
-struct DeviceLobe {
-    Real weight, alpha2, exponent_1, exponent_2, peak;
-};
-
-// Each lobe's variances plus X's, along X's principal axes.
-template <typename Real>
-std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x) {
-    const PrincipalAxes axes = principal_axes(x);
-    const auto r = [](double v) { return static_cast<Real>(v); };
-    std::vector<DeviceLobe<Real>> lobes;
-    for (const auto &[share, alpha] : material.lobes) {
-        const double weight = material.model == Model::Shared ? share : 1.0;
-        const double alpha2 = alpha * alpha, var_1 = alpha2 + axes.var_1, var_2 = alpha2 + axes.var_2;
-        const double peak = weight / (std::numbers::pi * std::sqrt(var_1) * std::sqrt(var_2));
-        lobes.push_back(
-            {r(weight), r(alpha2), r(-std::numbers::log2e / var_1), r(-std::numbers::log2e / var_2), r(peak)});
-    }
-    return lobes;
-}
 
 cl::Buffer lobe_buffer(const Context &context, const Material &material, const Displacement &x, Grade grade) {
     return with_real(grade,

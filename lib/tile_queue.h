@@ -20,6 +20,7 @@ struct Tile {
 struct Tiling {
     std::uint32_t rows = 0;       // of a tile
     std::uint32_t work_group = 0; // work-items of a work-group
+    std::uint32_t facets = 0;     // of the reference, by a technique, that a launch adds at most
 };
 
 // Tiles of at most 2^18 items, enough to keep a device busy and few enough to bound its memory; several for each device

@@ -43,7 +43,7 @@ constexpr double fall_over_sigma = 0.2;
 
 // Principal axes, the rougher one first.
 PrincipalAxes rougher_first(const Displacement &displacement) {
-    const PrincipalAxes axes = principal_axes(displacement);
+    const PrincipalAxes axes = rough_principal_axes(displacement);
     if (axes.var_1 >= axes.var_2) return axes;
     return {-axes.axis_y, axes.axis_x, axes.var_2, axes.var_1};
 }
@@ -154,7 +154,7 @@ std::vector<DeviceNode<Real>> hermite_nodes() {
 } // namespace
 
 int rough_axes(const Displacement &displacement) {
-    const PrincipalAxes axes = principal_axes(displacement);
+    const PrincipalAxes axes = rough_principal_axes(displacement);
     return (axes.var_1 > 0.0) + (axes.var_2 > 0.0);
 }
 

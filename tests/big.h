@@ -3,6 +3,8 @@
 
 #include <mpfr.h>
 
+#include "oracle_formulas.h"
+
 namespace test {
 
 class Big {
@@ -59,3 +61,8 @@ class Big {
 };
 
 } // namespace test
+
+template <>
+inline test::Big oracle::pi_of() {
+    return test::Big::pi();
+}

@@ -1,20 +1,17 @@
-// An oracle for the tests: the formulas of the notation page in double (long double where differences cancel), slow and
-// written apart from the library, so that the two can disagree.
+// An oracle for the tests: the formulas of the notation page (oracle_formulas.h) in long double, slow and written apart
+// from the library, so that the two can disagree.
 //   Beckmann slopes, their projected area, masking: Walter et al. 2007, Smith 1967 in the form of Dupuy et al. 2015.
 //   A surface is a Gaussian of slopes; a mixture is a weighted sum of surfaces that share one displaced surface X.
 #pragma once
 
 #include <vector>
 
+#include "oracle_formulas.h"
 #include "vec3.h"
 
 namespace oracle {
 
-// A Gaussian density of slopes: mean and covariance. Covariances of 0 are legal and mean "all mass on a line or point".
-struct Gaussian {
-    double mean_x = 0.0, mean_y = 0.0;
-    double cov_xx = 0.0, cov_xy = 0.0, cov_yy = 0.0;
-};
+using Gaussian = GaussianOf<double>;
 
 // From roughnesses: alpha is sqrt(2) times the standard deviation of the slope.
 Gaussian gaussian(double alpha_x, double alpha_y, double rho = 0.0, double mean_x = 0.0, double mean_y = 0.0);

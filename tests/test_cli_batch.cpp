@@ -395,5 +395,9 @@ TEST(CliBatch, AFailedPlotLosesNoFit) {
     const test::CliResult run = test::cli(fit_of(dir, {"builtin:conductor"}, {"--plot", "--json"}));
     ASSERT_CLI_OK(run);
     EXPECT_TRUE(run.json().at("materials").at(0).at("up_to_date"));
+    EXPECT_TRUE(run.json().at("build_seconds").is_number());
     EXPECT_TRUE(test::exists(dir / "out/conductor.svg"));
+    const test::CliResult without = test::cli(fit_of(dir, {"builtin:conductor"}, {"--json"}));
+    ASSERT_CLI_OK(without);
+    EXPECT_TRUE(without.json().at("build_seconds").is_null());
 }

@@ -118,9 +118,11 @@ TEST(CliBudget, AnOrderTakesTheWideningAway) {
 }
 
 TEST(CliBudget, RowsAreMeans) {
-    const json report = split(budget("builtin:conductor", {"--alpha", "0.1,0.1", "--alpha", "0.5,0", "--alpha", "0,0",
-                                                           "--light", "90", "--light", "0", "--lobes", "1"}));
+    const json report =
+        split(budget("builtin:conductor", {"--alpha", "0.1,0.1", "--alpha", "0.5,0", "--alpha", "0,0", "--light", "90",
+                                           "--light", "0", "--lobes", "1", "--grade", "fast"}));
     EXPECT_EQ(report.at("rows").size(), 6u);
+    EXPECT_EQ(report.at("grade"), "fast");
     EXPECT_EQ(report.at("spp"), samples);
     EXPECT_TRUE(report.at("target_error").is_null());
     EXPECT_EQ(report.at("sampler"), "mis");

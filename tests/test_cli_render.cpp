@@ -102,6 +102,20 @@ TEST(CliRender, WideningOrdersAreReported) {
     EXPECT_EQ(chosen.err.find(note), std::string::npos) << chosen.err;
 }
 
+TEST(CliRender, GradesAreReported) {
+    const test::TempDir dir;
+    for (const std::string grade : {"fast", "precise"}) {
+        const test::CliResult run = test::cli(
+            test::with(render("filtered", "builtin:two-layer", dir / (grade + ".exr")), {"--grade", grade, "--json"}));
+        ASSERT_CLI_OK(run);
+        EXPECT_EQ(run.json().at("grade"), grade);
+    }
+    const double difference = test::relrmse(read(dir / "fast.exr"), read(dir / "precise.exr"));
+    EXPECT_GT(difference, 0.0);
+    EXPECT_LT(difference, 1e-3);
+    EXPECT_CLI_FAILS(2, "double", test::with(render("filtered", "builtin:two-layer", dir / "a.exr"), {"--grade", "x"}));
+}
+
 // The same question through the API has the same bits.
 TEST(CliRender, ImageIsTheApis) {
     const test::TempDir dir;

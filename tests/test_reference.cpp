@@ -150,3 +150,26 @@ TEST(Reference, ToleranceSeesWrongFormulas) {
                                value(Masking::correlated, {0.5, 0.25, 0.5, 0.1, 0.0})})
         EXPECT_FALSE(test::is_close(wrong, right, pixel_tolerance, 0.0)) << wrong << " against " << right;
 }
+
+// mis fits its proposal to the table at the image's theta_d, where there may be nothing to fit.
+TEST(Reference, IsBlackWhereTheTableIs) {
+    oracle::Table table = test::beckmann_table({{1.0, 0.1}}, Masking::correlated);
+    for (int channel = 0; channel < 3; ++channel)
+        for (int th = 0; th < 90; ++th)
+            for (int td = 40; td < 90; ++td)
+                for (int pd = 0; pd < table.phi_d; ++pd)
+                    table.values[static_cast<std::size_t>(channel) * table.cells() + table.index(th, td, pd)] = 0.0;
+    const test::Brdf brdf = test::make_brdf(table);
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.spp = 256;
+    for (const double light : {0.0, 90.0}) { // theta_d 45 degrees, and 0
+        const smx_scene scene = test::make_scene(16, 16, test::radians(light), {0.3, 0.3, 0.0, 0.0, 0.0});
+        const test::Image image = test::render_reference(brdf, scene, options);
+        double highest = -1.0;
+        ASSERT_SMX_OK(smx_image_quantile(image, 1.0, &highest));
+        if (light == 0.0)
+            EXPECT_EQ(highest, 0.0);
+        else
+            EXPECT_GT(highest, 0.1);
+    }
+}

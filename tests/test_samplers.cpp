@@ -14,7 +14,7 @@
 #include "device_buffer.h"
 #include "oracle.h"
 #include "random.h"
-#include "sampling_plan.h"
+#include "sampling_parts.h"
 
 namespace {
 
@@ -81,16 +81,17 @@ struct Facets {
     double at(std::size_t plane, std::size_t k) const { return values[plane * drawn + k]; }
 };
 
-// set(kernel) gives the arguments from number 5.
+// set(kernel) gives the arguments from number 4.
 template <typename Set>
 Facets draw(const char *name, cl_uint seed, Set set) {
     cl::Kernel kernel = context().kernel("draw_facets.cl", name);
     const cl::Buffer buffer = smx::empty_buffer<float>(context(), 5 * drawn);
     kernel.setArg(0, buffer);
     kernel.setArg(1, static_cast<cl_int>(drawn));
-    kernel.setArg(2, cl_uint{0});
-    kernel.setArg(3, static_cast<cl_uint>(drawn));
-    kernel.setArg(4, seed);
+    constexpr auto size = static_cast<cl_int>(drawn);
+    kernel.setArg(2, smx::Part{0, 1, 0, size, size, 1, size});
+    const cl::Buffer seeds = smx::buffer_from(context(), std::vector<cl_uint>{seed});
+    kernel.setArg(3, seeds);
     set(kernel);
     context().queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(drawn));
     Facets facets{std::vector<float>(5 * drawn)};
@@ -100,10 +101,10 @@ Facets draw(const char *name, cl_uint seed, Set set) {
 
 Facets draw_of_x(bool grid, const smx::Displacement &x, cl_uint seed) {
     return draw(grid ? "draw_grid" : "draw_sobol", seed, [&](cl::Kernel &kernel) {
-        kernel.setArg(5, smx::to_device(x));
+        kernel.setArg(4, smx::to_device(x));
         if (!grid) return;
+        kernel.setArg(5, cl_uint{512});
         kernel.setArg(6, cl_uint{512});
-        kernel.setArg(7, cl_uint{512});
     });
 }
 
@@ -162,9 +163,9 @@ Facets draw_about_z(const Lobes &lobes, cl_uint seed) {
     const cl::Buffer lobe_buffer = smx::buffer_from(context(), cumulated);
     const cl::Buffer density = smx::buffer_from(context(), smx::proposal_table(lobes));
     return draw("draw_about_z", seed, [&](cl::Kernel &kernel) {
-        kernel.setArg(5, lobe_buffer);
-        kernel.setArg(6, static_cast<cl_int>(lobes.size()));
-        kernel.setArg(7, density);
+        kernel.setArg(4, lobe_buffer);
+        kernel.setArg(5, static_cast<cl_int>(lobes.size()));
+        kernel.setArg(6, density);
     });
 }
 

@@ -11,6 +11,7 @@
 #include "error.h"
 #include "files.h"
 #include "integrate_reference.h"
+#include "sampling_parts.h"
 #include "shade_filtered.h"
 #include "support.h"
 #include "tile_queue.h"
@@ -82,20 +83,20 @@ constexpr std::size_t values = std::size_t{4} * 93 * 71;
     return ::testing::AssertionSuccess();
 }
 
-// Rows of a tile and work-items of a work-group, as the library chooses them and otherwise.
-const smx::Tiling tilings[] = {{0, 0}, {1, 1}, {7, 64}, {70, 16}};
+// Rows of a tile, work-items of a work-group, facets of a launch, as the library chooses them and otherwise.
+const smx::Tiling tilings[] = {{0, 0, 0}, {1, 1, 256}, {7, 64, 512}, {70, 16, 1024}};
 
 const smx::Scene inner_scene{93, 71, 0.7, {0.3, 0.2, 0.4, 0.1, 0.0}, smx::Masking::Correlated};
 
-smx::RenderOptions inner_options(const smx::Tiling &tiling) {
+smx::RenderOptions inner_options(const smx::Tiling &tiling, std::uint32_t spp = 256) {
     smx::RenderOptions options;
-    options.spp = 256;
+    options.spp = spp;
     options.errors = true;
     options.tiling = tiling;
     return options;
 }
 
-const std::vector<smx::Lobe> &some_lobes() {
+const std::vector<smx::Lobe> &some_lobes(std::optional<double> = {}) {
     static const std::vector<smx::Lobe> lobes{{0.5, 0.05}, {0.5, 0.4}};
     return lobes;
 }
@@ -146,8 +147,8 @@ TEST(Tiles, DevicesShareOneImage) {
 TEST(Tiles, TilingsAndWorkGroupsGiveTheSameBits) {
     smx::Context context("", 0);
     const smx::Brdf table = smx::make_builtin("two-layer");
-    const auto reference = [&](const smx::Tiling &tiling) {
-        return *smx::integrate_reference(context, table, some_lobes, inner_scene, inner_options(tiling)).image;
+    const auto reference = [&](const smx::Tiling &tiling, std::uint32_t spp) {
+        return *smx::integrate_reference(context, table, some_lobes, inner_scene, inner_options(tiling, spp)).image;
     };
     smx::Material material;
     material.lobes = some_lobes();
@@ -156,15 +157,50 @@ TEST(Tiles, TilingsAndWorkGroupsGiveTheSameBits) {
     const auto filtered = [&](const smx::Tiling &tiling) {
         return *smx::shade_filtered(context, material, inner_scene, inner_options(tiling)).image;
     };
-    const smx::Image a = reference(tilings[0]), b = filtered(tilings[0]);
-    ASSERT_EQ(a.errors.size(), values);
-    for (const smx::Tiling &tiling : tilings) {
-        const smx::Image other = reference(tiling);
-        EXPECT_TRUE(same_bits(a.rgba.data(), other.rgba.data(), values)) << tiling.rows;
-        EXPECT_TRUE(same_bits(a.errors.data(), other.errors.data(), values)) << tiling.rows;
-        EXPECT_EQ(a.attributes.at("slopemix.standard_error"), other.attributes.at("slopemix.standard_error"));
+    const smx::Image b = filtered(tilings[0]);
+    for (const smx::Tiling &tiling : tilings)
         EXPECT_TRUE(same_bits(b.rgba.data(), filtered(tiling).rgba.data(), values)) << tiling.rows;
+
+    // Scrambles of 4, 16 and 640 facets by a technique: several in a vector, several in a launch, one in several.
+    for (const std::uint32_t spp : {64u, 256u, 10240u}) {
+        const smx::Image a = reference(tilings[0], spp);
+        ASSERT_EQ(a.errors.size(), values);
+        for (const smx::Tiling &tiling : tilings) {
+            const smx::Image other = reference(tiling, spp);
+            EXPECT_TRUE(same_bits(a.rgba.data(), other.rgba.data(), values)) << tiling.rows << " " << spp;
+            EXPECT_TRUE(same_bits(a.errors.data(), other.errors.data(), values)) << tiling.rows << " " << spp;
+            EXPECT_EQ(a.attributes.at("slopemix.standard_error"), other.attributes.at("slopemix.standard_error"));
+        }
     }
+}
+
+// Every facet of every scramble once, in parts of whole vectors that no buffer is too small for.
+TEST(Tiles, PartsAreAllOfTheSamples) {
+    const smx::Displacement x{0.3, 0.2, 0.0, 0.0, 0.0};
+    for (const smx::Sampler sampler : {smx::Sampler::Grid, smx::Sampler::Sobol, smx::Sampler::Mis})
+        for (const std::uint32_t spp : {4u, 16u, 64u, 144u, 1024u, 65536u, 1u << 20})
+            for (const std::size_t items : {std::size_t{1}, std::size_t{4096}, std::size_t{1} << 18})
+                for (const std::uint32_t lanes : {1u, 4u, 16u}) {
+                    const smx::SamplingPlan plan = smx::sampling_plan(x, sampler, spp);
+                    const auto together = static_cast<std::int32_t>(smx::scrambles_per_vector(plan, lanes));
+                    std::uint64_t facets = 0;
+                    std::int32_t scramble = 0, first = 0;
+                    const std::vector<smx::Part> parts = smx::sampling_parts(plan, items, lanes);
+                    for (const smx::Part &part : parts) {
+                        EXPECT_EQ(part.scramble, scramble);
+                        EXPECT_EQ(part.first, first);
+                        EXPECT_EQ(part.scrambles % together, 0);
+                        EXPECT_EQ(part.slots * together % static_cast<std::int32_t>(lanes), 0);
+                        EXPECT_GE(part.slots, part.size);
+                        EXPECT_EQ(part.is_last(), &part == &parts.back());
+                        facets += static_cast<std::uint64_t>(part.scrambles) * static_cast<std::uint32_t>(part.size);
+                        const bool whole = part.first + part.size == part.all_facets;
+                        EXPECT_TRUE(whole || part.scrambles == 1);
+                        scramble += whole ? part.scrambles : 0;
+                        first = whole ? 0 : first + part.size;
+                    }
+                    EXPECT_EQ(facets * plan.passes.size(), plan.samples()) << spp << " " << items << " " << lanes;
+                }
 }
 
 TEST(Tiles, AreTakenInTheirOrderAndNotFarAhead) {

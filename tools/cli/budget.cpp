@@ -62,6 +62,7 @@ void add_budget(CLI::App &app) {
     add_configuration_flags(*command, *job);
     add_sampling_flags(*command, job->flags);
     add_widening_flags(*command, job->flags);
+    add_grade_flag(*command, job->flags);
     command->add_flag("--json", job->json, "Print JSON, with the values of every light");
     command->footer(
         "relRMSE, mean over the lights, for both models:\n"

@@ -106,6 +106,7 @@ void print_budget_json(const BudgetJob &job, const BudgetResult &result) {
     document["lights_deg"] = job.lights;
     document["resolution"] = {flags.resolution.width, flags.resolution.height};
     document["sampler"] = word_for(flags.sampler, samplers);
+    document["grade"] = word_for(flags.grade, grades);
     document["spp"] = flags.target_error > 0.0 ? Json() : Json(flags.spp);
     document["target_error"] = flags.target_error > 0.0 ? Json(flags.target_error) : Json();
     document["seed"] = flags.seed;

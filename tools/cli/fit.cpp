@@ -61,7 +61,7 @@ class FitRun {
             });
     }
 
-    void print() const { print_fits(job_, outcomes_); }
+    void print() const { print_fits(job_, outcomes_, worker_.build_seconds()); }
 
     // Something was finished without all that was asked for.
     bool cancelled() const {

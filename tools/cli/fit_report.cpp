@@ -58,14 +58,17 @@ Json to_json(const Fitted &fitted) {
             {"metrics", metrics_json(fitted.metrics)}};
 }
 
-void print_json(const FitJob &job, const std::vector<FitOutcome> &outcomes) {
+void print_json(const FitJob &job, const std::vector<FitOutcome> &outcomes, std::optional<double> build_seconds) {
     Json materials = Json::array(), failures = Json::array();
     for (const FitOutcome &outcome : outcomes) {
         if (outcome.fitted) materials.push_back(to_json(*outcome.fitted));
         if (!outcome.error.empty())
             failures.push_back({{"input", job.inputs[outcome.index]}, {"error", outcome.error}});
     }
-    const Json document = {{"version", SMX_VERSION_STRING}, {"materials", materials}, {"failures", failures}};
+    const Json document = {{"version", SMX_VERSION_STRING},
+                           {"build_seconds", build_seconds ? Json(*build_seconds) : Json()},
+                           {"materials", materials},
+                           {"failures", failures}};
     std::cout << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
@@ -143,9 +146,9 @@ void print_lines(const std::vector<FitOutcome> &outcomes) {
 
 } // namespace
 
-void print_fits(const FitJob &job, const std::vector<FitOutcome> &outcomes) {
+void print_fits(const FitJob &job, const std::vector<FitOutcome> &outcomes, std::optional<double> build_seconds) {
     if (job.json)
-        print_json(job, outcomes);
+        print_json(job, outcomes, build_seconds);
     else if (job.inputs.size() > 1)
         print_lines(outcomes);
     else if (!outcomes.empty() && outcomes.front().fitted)

@@ -34,6 +34,11 @@ FitWorker::FitWorker(const FitJob &job, const FitTable &earlier) : job_(job), ea
     context_ = open_context({});
 }
 
+std::optional<double> FitWorker::build_seconds() const {
+    if (!context_) return std::nullopt;
+    return info_of(context_).build_seconds;
+}
+
 Material FitWorker::load_if_up_to_date(const FitSource &source) const {
     const std::string sha256 = source.sha256();
     const FitTable::Row *row = job_.refit ? nullptr : earlier_.find(name_of(source.input()));

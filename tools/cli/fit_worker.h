@@ -1,6 +1,8 @@
 // The fit of one input, from its file to the material's. Its object may be used from many threads.
 #pragma once
 
+#include <optional>
+
 #include "fit_job.h"
 #include "fit_source.h"
 #include "fit_table.h"
@@ -15,6 +17,9 @@ class FitWorker {
     // Writes the material's file, unless it is up to date, and its picture. What fails is told in the outcome; throws
     // Cancelled only where nothing was finished.
     FitOutcome process(std::size_t index) const;
+
+    // Of the kernels that pictures need, so far; nothing without pictures.
+    std::optional<double> build_seconds() const;
 
   private:
     Material load_if_up_to_date(const FitSource &source) const;

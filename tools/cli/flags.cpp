@@ -75,13 +75,17 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
         ->type_name("N");
 }
 
+void add_grade_flag(CLI::App &command, RenderFlags &flags) {
+    add_choice(command, "--grade", flags.grade, grades,
+               "Arithmetic: float to about 1e-4, float to its precision, or double for checking (default precise)");
+}
+
 void add_render_flags(CLI::App &command, RenderFlags &flags) {
     add_sampling_flags(command, flags);
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
     add_choice(command, "--g", flags.masking, maskings,
                "Masking and shadowing, height-correlated or separable (default correlated)");
-    add_choice(command, "--grade", flags.grade, grades,
-               "Arithmetic: float to about 1e-4, float to its precision, or double for checking (default precise)");
+    add_grade_flag(command, flags);
 }
 
 std::int32_t parse_widening_order(const std::string &text) {

@@ -93,6 +93,8 @@ struct RenderFlags {
 // Resolution, samples, seed and device; their help names the values in `flags` as the defaults.
 void add_sampling_flags(CLI::App &command, RenderFlags &flags);
 
+void add_grade_flag(CLI::App &command, RenderFlags &flags);
+
 // These and the others.
 void add_render_flags(CLI::App &command, RenderFlags &flags);
 

@@ -1,0 +1,153 @@
+#include "hard_probe.h"
+
+#include <cmath>
+#include <limits>
+
+#include "device_buffer.h"
+#include "device_lobe.h"
+
+namespace test {
+
+namespace {
+
+// Writes out[quantity][stride]. wi's own quantities are asked for where its mean plane is not turned away.
+constexpr const char *probe = R"(
+__kernel void probe(__global real *out, int stride, __global const float *wi, __global const float *wo, Displacement x,
+                    __constant Lobe *lobes, int count, __global const float *curves, __constant float *theta_d,
+                    int knots) {
+    int at = W * (int)get_global_id(0);
+    PairsOfDirections d = load_pairs(wi, wo, stride, at);
+    realW hx = d.ix + d.ox, hy = d.iy + d.oy, hz = d.iz + d.oz;
+    realW angle = difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
+    KnotPosition knot = knot_position(theta_d, knots, angle);
+    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, hx, hy, hz);
+    realW p_i = fmax(mean_plane(&x, d.ix, d.iy, d.iz), (realW)0.0f);
+    Slanted i = slanted(&x, d.ix, d.iy, p_i);
+    intW up = hz > (realW)0.0f;
+    Tilted h = tilted(&x, selectW((realW)0.0f, hx, up), selectW((realW)0.0f, hy, up), selectW((realW)1.0f, hz, up));
+    __global real *to = out + at;
+#if PER_LOBE == 0 && G2_SEPARABLE == 0
+    vstoreW(selectW((realW)0.0f, mixture_ndf(lobes, count, &h), up), 0, to);
+    vstoreW(mixture_sigma(lobes, count, &i), 0, to + stride);
+    vstoreW(mixture_lambda(lobes, count, &i), 0, to + 2 * stride);
+    vstoreW(mixture_g1(lobes, count, &i), 0, to + 3 * stride);
+    vstoreW(angle, 0, to + 4 * stride);
+    for (int c = 0; c < 3; ++c) vstoreW(fresnel_at(curves + c * knots, &knot), 0, to + (5 + c) * stride);
+#endif
+#if PER_LOBE == 0
+    realW g2 = selectW((realW)0.0f, mixture_g2(lobes, count, &e) * e.o.p, e.visible);
+    vstoreW(g2, 0, to + (8 + G2_SEPARABLE) * stride);
+#endif
+    RgbW f = fcos_of_pair(lobes, count, curves, knots, &knot, &e);
+    int shading = 10 + 6 * PER_LOBE + 3 * G2_SEPARABLE;
+    vstoreW(f.r, 0, to + shading * stride);
+    vstoreW(f.g, 0, to + (shading + 1) * stride);
+    vstoreW(f.b, 0, to + (shading + 2) * stride);
+}
+)";
+
+constexpr const char *names[quantities] = {"D",
+                                           "sigma",
+                                           "Lambda",
+                                           "G1",
+                                           "theta_d",
+                                           "F (red)",
+                                           "F (0)",
+                                           "F (steep)",
+                                           "G2 correlated",
+                                           "G2 separable",
+                                           "f cos, shared, correlated, red",
+                                           "f cos, shared, correlated, 0",
+                                           "f cos, shared, correlated, steep",
+                                           "f cos, shared, separable, red",
+                                           "f cos, shared, separable, 0",
+                                           "f cos, shared, separable, steep",
+                                           "f cos, per-lobe, correlated, red",
+                                           "f cos, per-lobe, correlated, 0",
+                                           "f cos, per-lobe, correlated, steep",
+                                           "f cos, per-lobe, separable, red",
+                                           "f cos, per-lobe, separable, 0",
+                                           "f cos, per-lobe, separable, steep"};
+
+smx::Material material_of(const HardCase &c, smx::Model model) {
+    smx::Material m;
+    m.model = model;
+    for (const oracle::Lobe &lobe : c.lobes) m.lobes.push_back({lobe.weight, lobe.alpha});
+    return m;
+}
+
+std::vector<float> curves_of(const HardCase &c) {
+    std::vector<float> curves;
+    for (std::size_t set = 0; set < c.lobes.size(); ++set)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (float f : hard_curve(set, channel)) curves.push_back(f);
+    return curves;
+}
+
+} // namespace
+
+const char *quantity_name(std::size_t quantity) { return names[quantity]; }
+
+smx::Displacement displacement_of(const HardSurface &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_x, x.mean_y}; }
+
+HardProbe::HardProbe(smx::Context &context, smx::Grade grade) : context_(context), grade_(grade) {
+    const std::string source = smx::kernel_source("shade_filtered.cl") + probe;
+    for (int per_lobe : {0, 1})
+        for (int separable : {0, 1}) {
+            cl::Program program(context.cl(), source);
+            program.build(smx::build_options({{"W", static_cast<int>(context.width())},
+                                              {"GRADE", static_cast<int>(grade)},
+                                              {"PER_LOBE", per_lobe},
+                                              {"G2_SEPARABLE", separable}})
+                              .c_str());
+            kernels_.emplace_back(program, "probe");
+        }
+}
+
+template <typename Real>
+void HardProbe::run_as(const HardCase &c, const std::vector<HardPair> &pairs,
+                       std::vector<std::vector<double>> &values) {
+    const std::size_t stride = smx::round_up(pairs.size(), context_.width());
+    std::vector<float> planes[2] = {std::vector<float>(3 * stride), std::vector<float>(3 * stride)};
+    for (std::size_t k = 0; k < stride; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            planes[0][axis * stride + k] = pairs[std::min(k, pairs.size() - 1)].wi[axis];
+            planes[1][axis * stride + k] = pairs[std::min(k, pairs.size() - 1)].wo[axis];
+        }
+    const cl::Buffer wi = smx::buffer_from(context_, planes[0]), wo = smx::buffer_from(context_, planes[1]);
+    const cl::Buffer curves = smx::buffer_from(context_, curves_of(c));
+    const cl::Buffer knots = smx::buffer_from(context_, std::vector<float>(hard_theta_d.begin(), hard_theta_d.end()));
+    std::vector<Real> all(quantities * stride, std::numeric_limits<Real>::quiet_NaN());
+    const cl::Buffer out = smx::empty_buffer<Real>(context_, all.size());
+    context_.queue().enqueueWriteBuffer(out, CL_TRUE, 0, all.size() * sizeof(Real), all.data());
+    for (std::size_t model = 0; model < 2; ++model) {
+        const smx::Material material = material_of(c, static_cast<smx::Model>(model));
+        const cl::Buffer lobes = smx::buffer_from(context_, smx::widened_lobes<Real>(material, displacement_of(c.x)));
+        for (std::size_t masking = 0; masking < 2; ++masking) {
+            cl::Kernel &kernel = kernels_[2 * model + masking];
+            kernel.setArg(0, out);
+            kernel.setArg(1, static_cast<cl_int>(stride));
+            kernel.setArg(2, wi);
+            kernel.setArg(3, wo);
+            smx::set_arg(kernel, 4, displacement_of(c.x), grade_);
+            kernel.setArg(5, lobes);
+            kernel.setArg(6, static_cast<cl_int>(c.lobes.size()));
+            kernel.setArg(7, curves);
+            kernel.setArg(8, knots);
+            kernel.setArg(9, static_cast<cl_int>(hard_knots));
+            context_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(stride / context_.width()));
+        }
+    }
+    context_.queue().enqueueReadBuffer(out, CL_TRUE, 0, all.size() * sizeof(Real), all.data());
+    for (std::size_t q = 0; q < quantities; ++q)
+        values[q].assign(all.begin() + static_cast<std::ptrdiff_t>(q * stride),
+                         all.begin() + static_cast<std::ptrdiff_t>(q * stride + pairs.size()));
+}
+
+std::vector<std::vector<double>> HardProbe::run(const HardCase &c, const std::vector<HardPair> &pairs) {
+    std::vector<std::vector<double>> values(quantities);
+    smx::with_real(grade_, [&](auto real) { run_as<decltype(real)>(c, pairs, values); });
+    return values;
+}
+
+} // namespace test

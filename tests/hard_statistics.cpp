@@ -1,0 +1,108 @@
+#include "hard_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+
+namespace test {
+
+namespace {
+
+constexpr double smallest_float = 0x1p-126;
+constexpr std::size_t worst_kept = 10;
+constexpr std::array<double, 4> steps{1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0};
+
+} // namespace
+
+std::ostream &operator<<(std::ostream &out, const HardPoint &p) {
+    const HardCase c = hard_case(p.index);
+    out << std::setprecision(9) << "| " << std::setprecision(3) << p.ratio << " | " << quantity_name(p.quantity)
+        << " | " << std::setprecision(9) << p.got << " | " << p.wanted << " | " << std::setprecision(3) << p.condition
+        << std::setprecision(9) << " | (" << p.pair.wi[0] << ", " << p.pair.wi[1] << ", " << p.pair.wi[2] << ") | ("
+        << p.pair.wo[0] << ", " << p.pair.wo[1] << ", " << p.pair.wo[2] << ") | X (" << c.x.alpha_x << ", "
+        << c.x.alpha_y << ", " << c.x.rho << ", " << c.x.mean_x << ", " << c.x.mean_y << "), ";
+    if (c.lobes.size() > 2) return out << c.lobes.size() << " lobes |";
+    for (const oracle::Lobe &lobe : c.lobes) out << "lobe (" << lobe.weight << ", " << lobe.alpha << ") ";
+    return out << "|";
+}
+
+double HardStatistics::error_ratio(const HardPoint &p) const {
+    const double error = std::abs(p.got / p.wanted - 1.0);
+    return error / (promise_.factor * (1.0 + p.condition));
+}
+
+void HardStatistics::count(HardPoint p) {
+    QuantityCounts &c = counts_[p.quantity];
+    ++c.points;
+    p.ratio = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(p.got)) return ++c.not_finite, keep(p);
+    if (p.got < 0.0) return ++c.negative, keep(p);
+    const bool undetermined = promise_.factor * (1.0 + p.condition) >= 1.0;
+    c.undetermined += undetermined;
+    if (undetermined) return;
+    if (p.wanted < smallest_float) { // or 0: no relative error is asked for
+        const double most = p.wanted == 0.0 ? 0.0 : 2 * smallest_float;
+        if (p.got <= most) return ++c.within[0], void();
+        return ++c.wrong, keep(p);
+    }
+    if (p.got == 0.0) return ++c.zero, keep(p);
+    p.ratio = error_ratio(p);
+    c.largest = std::max(c.largest, p.ratio);
+    const double error = std::abs(p.got / p.wanted - 1.0);
+    if (p.condition < 10.0) c.largest_error = std::max(c.largest_error, error);
+    if (p.ratio > 1.0 || (p.condition < 10.0 && error > promise_.well_conditioned)) ++c.wrong;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        if (p.ratio <= steps[k]) {
+            ++c.within[k];
+            break;
+        }
+    keep(p);
+}
+
+void HardStatistics::keep(const HardPoint &p) {
+    if (worst_.size() == worst_kept && p.ratio <= worst_.back().ratio) return;
+    const auto place =
+        std::find_if(worst_.begin(), worst_.end(), [&](const HardPoint &w) { return p.ratio > w.ratio; });
+    worst_.insert(place, p);
+    if (worst_.size() > worst_kept) worst_.pop_back();
+}
+
+void HardStatistics::merge(const HardStatistics &other) {
+    for (std::size_t q = 0; q < quantities; ++q) {
+        QuantityCounts &a = counts_[q];
+        const QuantityCounts &b = other.counts_[q];
+        a.points += b.points, a.not_finite += b.not_finite, a.negative += b.negative, a.zero += b.zero;
+        a.wrong += b.wrong, a.undetermined += b.undetermined;
+        for (std::size_t k = 0; k < a.within.size(); ++k) a.within[k] += b.within[k];
+        a.largest = std::max(a.largest, b.largest), a.largest_error = std::max(a.largest_error, b.largest_error);
+    }
+    for (const HardPoint &p : other.worst_) keep(p);
+}
+
+std::size_t HardStatistics::failures() const {
+    std::size_t sum = 0;
+    for (const QuantityCounts &c : counts_) sum += c.not_finite + c.negative + c.zero + c.wrong;
+    return sum;
+}
+
+void HardStatistics::write(std::ostream &out) const {
+    out << "\n### " << promise_.name << "\n\n"
+        << "| quantity | points | not finite | negative | lost to 0 | wrong | <= 1/64 | <= 1/16 | <= 1/4 | <= 1 | "
+           "undetermined | largest error / bound | largest error, cond < 10 |\n|"
+        << " --- |";
+    for (int k = 0; k < 12; ++k) out << " --- |";
+    for (std::size_t q = 0; q < quantities; ++q) {
+        const QuantityCounts &c = counts_[q];
+        if (c.points == 0) continue;
+        out << "\n| " << quantity_name(q) << " | " << c.points << " | " << c.not_finite << " | " << c.negative << " | "
+            << c.zero << " | " << c.wrong;
+        for (std::size_t n : c.within) out << " | " << n;
+        out << std::setprecision(2) << " | " << c.undetermined << " | " << c.largest << " | " << c.largest_error
+            << " |";
+    }
+    out << "\n\n| error / bound | quantity | got | wanted | cond | wi | wo | case |\n"
+        << "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const HardPoint &p : worst_) out << p << "\n";
+}
+
+} // namespace test

@@ -1,0 +1,75 @@
+// How far the numbers of a grade are from the truth over the grid of hard cases, in units of what is allowed: counts,
+// distribution, worst points, and all of it as a table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <ostream>
+#include <vector>
+
+#include "hard_truth.h"
+
+namespace test {
+
+// What is promised of a grade (docs/stability.md): error over |value| at most `factor` (1 + condition).
+struct Promise {
+    const char *name;
+    double epsilon; // of its arithmetic
+    double factor;
+    double asks_again;       // share of what is allowed from which on the truth is taken at 60 digits
+    double well_conditioned; // and at most this where the condition is below 10; infinity where nothing more is said
+};
+inline constexpr double no_promise = std::numeric_limits<double>::infinity();
+// (Of fast, whose polynomials are made to err by as much as they may, a quarter would be every tenth point.)
+inline constexpr std::array<Promise, 3> promises{{{"precise", 0x1p-23, 16 * 0x1p-23, 0.25, 1e-5},
+                                                  {"fast", 0x1p-23, 2e-4, 1.0, no_promise},
+                                                  {"double", 0x1p-52, 16 * 0x1p-52, 0.25, no_promise}}};
+
+struct HardPoint {
+    double ratio = 0.0; // of the error to what is allowed
+    std::size_t quantity = 0, index = 0;
+    HardPair pair{};
+    double got = 0.0, wanted = 0.0, condition = 0.0;
+};
+std::ostream &operator<<(std::ostream &out, const HardPoint &point);
+
+struct QuantityCounts {
+    std::size_t points = 0;
+    std::size_t not_finite = 0, negative = 0, zero = 0; // zero: where the truth is a normal float
+    std::size_t wrong = 0;                              // error above what is allowed
+    std::size_t undetermined = 0;        // of `points`: more than 1 is allowed, so that only the above could fail
+    std::array<std::size_t, 4> within{}; // error at most 1/64, 1/16, 1/4, 1 of what is allowed
+    double largest = 0.0;                // error over what is allowed
+    double largest_error = 0.0;          // relative, where the condition is below 10
+};
+
+class HardStatistics {
+  public:
+    explicit HardStatistics(const Promise &promise) : promise_(promise) {}
+
+    // `wanted` and its condition from the oracle. `better(quantity)` gives the truth at 60 digits: it is asked for
+    // where the error comes near what is allowed.
+    template <class Better>
+    void see(HardPoint point, Better better) {
+        if (point.wanted != 0.0 && error_ratio(point) > promise_.asks_again) point.wanted = better(point.quantity);
+        count(point);
+    }
+    void merge(const HardStatistics &other);
+
+    const std::array<QuantityCounts, quantities> &counts() const { return counts_; }
+    const std::vector<HardPoint> &worst() const { return worst_; }
+    std::size_t failures() const;
+    void write(std::ostream &out) const;
+
+  private:
+    double error_ratio(const HardPoint &point) const;
+    void count(HardPoint point);
+    void keep(const HardPoint &point);
+
+    Promise promise_;
+    std::array<QuantityCounts, quantities> counts_{};
+    std::vector<HardPoint> worst_; // ten, the worst first
+};
+
+} // namespace test

@@ -1,0 +1,213 @@
+// Every number that the library computes, on the grid of hard cases, in three grades, against the oracle
+// (docs/stability.md). SLOPEMIX_HARD_POINTS says how many pairs of directions, SLOPEMIX_HARD_CHECKED what share of them
+// is evaluated at 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "big.h"
+#include "dual.h"
+#include "hard_probe.h"
+#include "hard_statistics.h"
+#include "textbook.h"
+
+using test::Big;
+using test::HardCase;
+using test::HardPair;
+using test::HardPoint;
+using test::HardStatistics;
+
+namespace {
+
+using Wide = long double;
+using Dual = test::Dual<test::hard_variables>;
+
+// The oracle's own error is below this share of what is allowed in double.
+constexpr double oracle_share = 0x1p-4;
+constexpr double smallest_float = 0x1p-126;
+constexpr std::size_t pairs_per_case = 1000;
+constexpr std::size_t report_every = 1000; // cases
+
+const auto constant = []<class T>(std::type_identity<T>) { return [](double value, std::size_t) { return T(value); }; };
+constexpr auto variable = [](double value, std::size_t index) { return Dual::variable(value, index); };
+
+template <class T, class Variable>
+std::array<T, test::quantities> truth(const test::CaseOf<T> &c, const HardPair &pair, Variable make) {
+    return test::truth_of(c, test::direction_of<T>(pair.wi, 0, make), test::direction_of<T>(pair.wo, 3, make));
+}
+
+// A case in all three arithmetics.
+struct Truths {
+    test::CaseOf<Wide> wide;
+    test::CaseOf<Dual> dual;
+    test::CaseOf<Big> big;
+
+    explicit Truths(const HardCase &c)
+        : wide(test::case_of<Wide>(c, constant(std::type_identity<Wide>()))),
+          dual(test::case_of<Dual>(c, variable)),
+          big(test::case_of<Big>(c, constant(std::type_identity<Big>()))) {}
+
+    std::array<Big, test::quantities> at_60_digits(const HardPair &pair) const {
+        return truth(big, pair, constant(std::type_identity<Big>()));
+    }
+};
+
+double setting(const char *name, double by_default) {
+    const char *text = std::getenv(name);
+    return text ? std::atof(text) : by_default;
+}
+
+struct Settings {
+    double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
+    double checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01); // of the points, at 60 digits too
+};
+
+struct Results {
+    std::vector<HardStatistics> grades{test::promises.begin(), test::promises.end()};
+    HardStatistics textbook{{"textbook form, in float", 0x1p-23, 16 * 0x1p-23, test::no_promise, 1e-5}};
+    std::size_t seen = 0, oracle_checked = 0, oracle_wrong = 0;
+    double oracle_worst = 0.0; // error over what is allowed in double
+
+    void merge(const Results &other) {
+        for (std::size_t g = 0; g < grades.size(); ++g) grades[g].merge(other.grades[g]);
+        textbook.merge(other.textbook);
+        seen += other.seen, oracle_checked += other.oracle_checked, oracle_wrong += other.oracle_wrong;
+        oracle_worst = std::max(oracle_worst, other.oracle_worst);
+    }
+};
+
+void check_oracle(const std::array<Wide, test::quantities> &wide, const std::array<Dual, test::quantities> &dual,
+                  const std::array<Big, test::quantities> &big, Results &results) {
+    ++results.oracle_checked;
+    for (std::size_t q = 0; q < test::quantities; ++q) {
+        const double wanted = static_cast<double>(big[q]);
+        if (std::abs(wanted) < 0x1p-126) continue;
+        const double error = static_cast<double>(abs(Big(static_cast<double>(wide[q])) - big[q])) / std::abs(wanted);
+        const double ratio = error / (test::promises[2].factor * (1.0 + dual[q].condition()));
+        results.oracle_worst = std::max(results.oracle_worst, ratio);
+        results.oracle_wrong += !(ratio <= oracle_share);
+    }
+}
+
+// A mean plane seen so nearly edge on that rounding decides whether it is seen: no sign is right or wrong.
+bool sign_is_open(const HardCase &c, const std::array<float, 3> &k, double epsilon) {
+    const double x = std::abs(k[0] * c.x.mean_x), y = std::abs(k[1] * c.x.mean_y), z = std::abs(k[2]);
+    return x + y > 0.0 && std::abs(k[2] - k[0] * c.x.mean_x - k[1] * c.x.mean_y) <= 4 * epsilon * (x + y + z);
+}
+
+// Whether the condition number, a first derivative, says too little: a curve's kink within the angle's error, a
+// density's peak about a mean slope, a density of 0 whose exponent is not known well enough to be one.
+bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, const test::Promise &promise,
+             std::size_t quantity, double wanted, double got, const Dual &theta_d) {
+    const bool has_fresnel =
+        quantity >= test::quantity_fresnel && quantity != test::quantity_g2 && quantity != test::quantity_g2 + 1;
+    if (has_fresnel && wanted != 0.0 &&
+        test::is_near_knot(theta_d.value, promise.factor * (1.0 + theta_d.condition()) * theta_d.value))
+        return true;
+    const bool has_density = quantity == test::quantity_ndf || quantity >= test::quantity_shared;
+    if (!has_density) return false;
+    if (test::second_order(c, pair, promise.epsilon) > promise.factor) return true;
+    if (wanted > smallest_float || got == 0.0) return false;
+    const auto wi = test::direction_of<Dual>(pair.wi, 0, variable), wo = test::direction_of<Dual>(pair.wo, 3, variable);
+    return test::may_have_density(truths.dual, wi + wo, promise.epsilon);
+}
+
+using Values = std::vector<std::vector<double>>;
+
+void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &pairs,
+             const std::array<Values, 3> &values, const Settings &settings, std::size_t first, std::size_t step,
+             Results &results) {
+    const Truths truths(c);
+    const bool is_textbook = c.x.rho == 0.0 && c.x.mean_x == 0.0 && c.x.mean_y == 0.0;
+    for (std::size_t k = first; k < pairs.size(); k += step) {
+        if (test::is_spread_lost(c, pairs[k].wi) || test::is_spread_lost(c, pairs[k].wo)) continue;
+        const auto wide = truth(truths.wide, pairs[k], constant(std::type_identity<Wide>()));
+        const auto dual = truth(truths.dual, pairs[k], variable);
+        std::optional<std::array<Big, test::quantities>> big;
+        const auto at_60_digits = [&]() -> const std::array<Big, test::quantities> & {
+            if (!big) big = truths.at_60_digits(pairs[k]);
+            return *big;
+        };
+        if (static_cast<double>(results.oracle_checked) < settings.checked_share * static_cast<double>(++results.seen))
+            check_oracle(wide, dual, at_60_digits(), results);
+        const auto better = [&](std::size_t q) { return static_cast<double>(at_60_digits()[q]); };
+        const auto see = [&](HardStatistics &statistics, const test::Promise &promise, std::size_t q, double got) {
+            const auto wanted = static_cast<double>(wide[q]);
+            if (wanted == test::no_value) return;
+            double condition = wanted == 0.0 ? 0.0 : dual[q].condition();
+            if (is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]))
+                condition = HUGE_VAL;
+            statistics.see({0.0, q, index, pairs[k], got, wanted, condition}, better);
+        };
+        for (std::size_t g = 0; g < values.size(); ++g) {
+            const test::Promise &promise = test::promises[g];
+            if (sign_is_open(c, pairs[k].wi, promise.epsilon) || sign_is_open(c, pairs[k].wo, promise.epsilon))
+                continue;
+            for (std::size_t q = 0; q < test::quantities; ++q) see(results.grades[g], promise, q, values[g][q][k]);
+        }
+        if (is_textbook)
+            for (const auto &[q, got] : test::textbook(c, pairs[k])) see(results.textbook, test::promises[0], q, got);
+    }
+}
+
+void report(const Results &results) {
+    const char *path = std::getenv("SLOPEMIX_HARD_REPORT");
+    if (!path) return;
+    std::ofstream out(path);
+    out << results.seen << " pairs of directions; " << results.oracle_checked
+        << " of them at 60 digits too, where the oracle's error is at most " << results.oracle_worst
+        << " of what is allowed in double\n";
+    for (const HardStatistics &grade : results.grades) grade.write(out);
+    results.textbook.write(out);
+}
+
+std::string worst_of(const HardStatistics &statistics) {
+    std::ostringstream out;
+    statistics.write(out);
+    return out.str();
+}
+
+Results merged(const std::vector<Results> &parts) {
+    Results all;
+    for (const Results &part : parts) all.merge(part);
+    return all;
+}
+
+Results run(const Settings &settings) {
+    smx::Context context("", 0);
+    std::vector<test::HardProbe> probes;
+    const std::size_t grades = context.info().has_double ? 3 : 2;
+    for (std::size_t g = 0; g < grades; ++g) probes.emplace_back(context, static_cast<smx::Grade>(g));
+    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<Results> parts(threads);
+    for (std::size_t index = 0; static_cast<double>(index * pairs_per_case) < settings.points; ++index) {
+        const HardCase c = test::hard_case(index);
+        const std::vector<HardPair> pairs = test::hard_pairs(c, pairs_per_case, index);
+        std::array<Values, 3> values;
+        for (std::size_t g = 0; g < grades; ++g) values[g] = probes[g].run(c, pairs);
+        if (grades < 3) values[2] = values[0];
+        std::vector<std::thread> pool;
+        for (std::size_t t = 0; t < threads; ++t)
+            pool.emplace_back([&, t] { compare(index, c, pairs, values, settings, t, threads, parts[t]); });
+        for (std::thread &thread : pool) thread.join();
+        if (index % report_every == 0) report(merged(parts));
+    }
+    const Results all = merged(parts);
+    report(all);
+    return all;
+}
+
+} // namespace
+
+TEST(HardCases, AllNumbersAreAsPromised) {
+    const Settings settings;
+    const Results results = run(settings);
+    for (const HardStatistics &grade : results.grades) EXPECT_EQ(grade.failures(), 0u) << worst_of(grade);
+    EXPECT_GE(static_cast<double>(results.oracle_checked), 0.9 * settings.checked_share * settings.points);
+    EXPECT_EQ(results.oracle_wrong, 0u) << "the oracle's own error: " << results.oracle_worst;
+    // The same grid by the textbook's form: a checker that sees nothing there would see nothing here.
+    EXPECT_GT(static_cast<double>(results.textbook.failures()), 0.01 * settings.points) << worst_of(results.textbook);
+}
