@@ -252,7 +252,7 @@ SMX_API smx_status smx_density_get_nodes(smx_density density, double *slope, dou
 
 typedef struct smx_lobe {
     double weight; /* share of the mixture, > 0; per-lobe: share of the energy, told by the curves. They sum to 1 */
-    double alpha;  /* 1e-4..1e4 */
+    double alpha;  /* 1e-4..1e4. 0, a mirror, has no density to evaluate: like all outside, INVALID_ARGUMENT */
 } smx_lobe;
 
 typedef enum smx_model {
