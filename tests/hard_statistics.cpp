@@ -31,6 +31,11 @@ double HardStatistics::error_ratio(const HardPoint &p) const {
     return error / (promise_.factor * (1.0 + p.condition));
 }
 
+bool HardStatistics::is_wrong(const HardPoint &p) const {
+    if (p.wanted < smallest_float) return p.got > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
+    return error_ratio(p) > 1.0 || (p.condition < 10.0 && std::abs(p.got / p.wanted - 1.0) > promise_.well_conditioned);
+}
+
 void HardStatistics::count(HardPoint p) {
     QuantityCounts &c = counts_[p.quantity];
     ++c.points;
@@ -41,8 +46,7 @@ void HardStatistics::count(HardPoint p) {
     c.undetermined += undetermined;
     if (undetermined) return;
     if (p.wanted < smallest_float) { // or 0: no relative error is asked for
-        const double most = p.wanted == 0.0 ? 0.0 : 2 * smallest_float;
-        if (p.got <= most) return ++c.within[0], void();
+        if (!is_wrong(p)) return ++c.within[0], void();
         return ++c.wrong, keep(p);
     }
     if (p.got == 0.0) return ++c.zero, keep(p);
@@ -50,7 +54,7 @@ void HardStatistics::count(HardPoint p) {
     c.largest = std::max(c.largest, p.ratio);
     const double error = std::abs(p.got / p.wanted - 1.0);
     if (p.condition < 10.0) c.largest_error = std::max(c.largest_error, error);
-    if (p.ratio > 1.0 || (p.condition < 10.0 && error > promise_.well_conditioned)) ++c.wrong;
+    c.wrong += is_wrong(p);
     for (std::size_t k = 0; k < steps.size(); ++k)
         if (p.ratio <= steps[k]) {
             ++c.within[k];

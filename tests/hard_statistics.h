@@ -48,6 +48,9 @@ class HardStatistics {
   public:
     explicit HardStatistics(const Promise &promise) : promise_(promise) {}
 
+    // Whether the error is above what is allowed.
+    bool is_wrong(const HardPoint &point) const;
+
     // `wanted` and its condition from the oracle. `better(quantity)` gives the truth at 60 digits: it is asked for
     // where the error comes near what is allowed.
     template <class Better>
