@@ -42,13 +42,11 @@ void HardStatistics::count(HardPoint p) {
     p.ratio = std::numeric_limits<double>::infinity();
     if (!std::isfinite(p.got)) return ++c.not_finite, keep(p);
     if (p.got < 0.0) return ++c.negative, keep(p);
+    if (p.wanted < smallest_float && !is_wrong(p)) return ++c.within[0], void(); // or 0: no relative error is asked for
     const bool undetermined = promise_.factor * (1.0 + p.condition) >= 1.0;
     c.undetermined += undetermined;
     if (undetermined) return;
-    if (p.wanted < smallest_float) { // or 0: no relative error is asked for
-        if (!is_wrong(p)) return ++c.within[0], void();
-        return ++c.wrong, keep(p);
-    }
+    if (p.wanted < smallest_float) return ++c.wrong, keep(p);
     if (p.got == 0.0) return ++c.zero, keep(p);
     p.ratio = error_ratio(p);
     c.largest = std::max(c.largest, p.ratio);
