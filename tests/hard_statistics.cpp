@@ -31,26 +31,28 @@ double HardStatistics::error_ratio(const HardPoint &p) const {
     return error / (promise_.factor * (1.0 + p.condition));
 }
 
+bool HardStatistics::is_wrong(const HardPoint &p) const {
+    if (p.wanted < smallest_float) return p.got > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
+    return error_ratio(p) > 1.0 || (p.condition < 10.0 && std::abs(p.got / p.wanted - 1.0) > promise_.well_conditioned);
+}
+
 void HardStatistics::count(HardPoint p) {
     QuantityCounts &c = counts_[p.quantity];
     ++c.points;
     p.ratio = std::numeric_limits<double>::infinity();
     if (!std::isfinite(p.got)) return ++c.not_finite, keep(p);
     if (p.got < 0.0) return ++c.negative, keep(p);
+    if (p.wanted < smallest_float && !is_wrong(p)) return ++c.within[0], void(); // or 0: no relative error is asked for
     const bool undetermined = promise_.factor * (1.0 + p.condition) >= 1.0;
     c.undetermined += undetermined;
     if (undetermined) return;
-    if (p.wanted < smallest_float) { // or 0: no relative error is asked for
-        const double most = p.wanted == 0.0 ? 0.0 : 2 * smallest_float;
-        if (p.got <= most) return ++c.within[0], void();
-        return ++c.wrong, keep(p);
-    }
+    if (p.wanted < smallest_float) return ++c.wrong, keep(p);
     if (p.got == 0.0) return ++c.zero, keep(p);
     p.ratio = error_ratio(p);
     c.largest = std::max(c.largest, p.ratio);
     const double error = std::abs(p.got / p.wanted - 1.0);
     if (p.condition < 10.0) c.largest_error = std::max(c.largest_error, error);
-    if (p.ratio > 1.0 || (p.condition < 10.0 && error > promise_.well_conditioned)) ++c.wrong;
+    c.wrong += is_wrong(p);
     for (std::size_t k = 0; k < steps.size(); ++k)
         if (p.ratio <= steps[k]) {
             ++c.within[k];

@@ -48,11 +48,14 @@ class HardStatistics {
   public:
     explicit HardStatistics(const Promise &promise) : promise_(promise) {}
 
+    // Whether the error is above what is allowed.
+    bool is_wrong(const HardPoint &point) const;
+
     // `wanted` and its condition from the oracle. `better(quantity)` gives the truth at 60 digits: it is asked for
     // where the error comes near what is allowed.
     template <class Better>
     void see(HardPoint point, Better better) {
-        if (point.wanted != 0.0 && error_ratio(point) > promise_.asks_again) point.wanted = better(point.quantity);
+        if (is_told_by_error(point) && error_ratio(point) > promise_.asks_again) point.wanted = better(point.quantity);
         count(point);
     }
     void merge(const HardStatistics &other);
@@ -63,6 +66,10 @@ class HardStatistics {
     void write(std::ostream &out) const;
 
   private:
+    // Not where nothing is determined, and not below a normal float, where no relative error is asked for.
+    bool is_told_by_error(const HardPoint &point) const {
+        return point.wanted >= 0x1p-126 && promise_.factor * (1.0 + point.condition) < 1.0;
+    }
     double error_ratio(const HardPoint &point) const;
     void count(HardPoint point);
     void keep(const HardPoint &point);

@@ -135,12 +135,15 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
             check_oracle(wide, dual, at_60_digits(), results);
         const auto better = [&](std::size_t q) { return static_cast<double>(at_60_digits()[q]); };
         const auto see = [&](HardStatistics &statistics, const test::Promise &promise, std::size_t q, double got) {
-            const auto wanted = static_cast<double>(wide[q]);
+            // A truth that is no 0 stays none.
+            const auto rounded = static_cast<double>(wide[q]),
+                       wanted = wide[q] > 0.0L ? std::max(rounded, 0x1p-1074) : rounded;
             if (wanted == test::no_value) return;
-            double condition = wanted == 0.0 ? 0.0 : dual[q].condition();
-            if (is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]))
-                condition = HUGE_VAL;
-            statistics.see({0.0, q, index, pairs[k], got, wanted, condition}, better);
+            HardPoint point{0.0, q, index, pairs[k], got, wanted, wanted == 0.0 ? 0.0 : dual[q].condition()};
+            if (statistics.is_wrong(point) &&
+                is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]))
+                point.condition = HUGE_VAL;
+            statistics.see(point, better);
         };
         for (std::size_t g = 0; g < values.size(); ++g) {
             const test::Promise &promise = test::promises[g];
