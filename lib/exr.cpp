@@ -13,6 +13,7 @@
 
 #include "atomic_file.h"
 #include "error.h"
+#include "exr_header.h"
 #include "exr_rows.h"
 #include "exr_writer.h"
 #include "image.h"
@@ -105,6 +106,7 @@ Image read_exr(const std::string &path) {
     if (!std::ifstream(path))
         fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
     try {
+        expect_sound_exr_header(path);
         return ExrReader(path).read();
     } catch (const Error &) {
         throw;
