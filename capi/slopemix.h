@@ -14,7 +14,8 @@
  * (NULL is legal). A child keeps its parents alive, so any order of release is legal.
  *
  * Errors. A function that can fail returns smx_status. When it fails, its outputs are untouched and smx_last_error()
- * says, for the calling thread, what was wrong, with the value and the legal range. The library never prints or exits.
+ * says, for the calling thread, what was wrong, with the value and the legal range. The library never prints or exits;
+ * what an OpenCL implementation does is its own (docs/robustness.md).
  *
  * Threads. Any function may be called from any thread. Immutable handles (brdf, density, material) may be shared
  * freely; calls that use one context run one after another; an image may be read by many threads or changed by one.

@@ -83,8 +83,8 @@ __kernel void draw_about_z(__global float *facets, int stride, Part part, __cons
         float weight = lobes[j].x - (j > 0 ? lobes[j - 1].x : 0.0f), alpha2 = lobes[j].y * lobes[j].y;
         p += weight / (M_PI_F * alpha2) * exp(-tangent2 / alpha2);
     }
-    float row = sqrt(atan(tangent) * (2.0f / M_PI_F)) * (float)SLICE_ROWS;
-    int below = clamp((int)row, 0, PROPOSAL_ROWS - 2);
-    float tabulated = mix(density[below], density[below + 1], row - (float)below);
+    float node = sqrt(atan(tangent) * (2.0f / M_PI_F)) * (float)(PROPOSAL_NODES - 1);
+    int below = clamp((int)node, 0, PROPOSAL_NODES - 2);
+    float tabulated = mix(density[below], density[below + 1], node - (float)below);
     facets[3 * stride + at] = tabulated / (p * length * length * length);
 }

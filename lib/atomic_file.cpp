@@ -38,7 +38,7 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::write(const std::function<void(const std::string &)> &action) {
     try {
-        action(temporary_);
+        action(temporary_.string());
     } catch (const Error &) {
         throw;
     } catch (const std::bad_alloc &) {

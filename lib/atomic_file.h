@@ -1,6 +1,7 @@
 // Files that appear whole or not at all: written under a temporary name in the same folder, then renamed.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -21,7 +22,8 @@ class AtomicFile {
     void commit();
 
   private:
-    std::string path_, temporary_;
+    std::string path_;
+    std::filesystem::path temporary_; // a path, so that removing it allocates nothing
 };
 
 // Calls write(temporary) and renames the result to `path`. Whatever fails, `path` is as it was and the temporary is

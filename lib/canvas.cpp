@@ -61,6 +61,7 @@ class FileCanvas : public Canvas {
         file_.write([&](const std::string &) { writer_->write(done.rgba.data(), done.errors.data(), tile.rows); });
     }
     std::optional<Image> finish(const Attributes &) override {
+        file_.write([&](const std::string &) { writer_->finish(); });
         writer_.reset();
         file_.commit();
         return std::nullopt;

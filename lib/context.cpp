@@ -81,7 +81,10 @@ cl::Program Context::build(const std::string &file, const std::string &options) 
     } catch (const cl::Error &e) {
         const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
         fail(Fault::KernelBuild, file, " does not build on ", info_.name, " (", opencl_error_name(e.err()),
-             ") with options ", options, ":\n", log);
+             ") with options ", options, ":\n", log,
+             info_.platform == "Portable Computing Language"
+                 ? "(PoCL says no more than that where it cannot write its cache, POCL_CACHE_DIR or ~/.cache/pocl)"
+                 : "");
     }
     build_seconds_ += seconds_since(start);
     return programs_.emplace(key, program).first->second;

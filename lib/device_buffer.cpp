@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "error.h"
+
 namespace smx {
 
 namespace {
@@ -11,6 +13,18 @@ namespace {
 constexpr std::size_t default_work_group = 16;
 
 } // namespace
+
+cl::Buffer make_buffer(const Context &context, std::size_t bytes, const void *from) {
+    try {
+        // The wrapper takes host memory as not const; CL_MEM_COPY_HOST_PTR only reads it.
+        return from ? cl::Buffer(context.cl(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes, const_cast<void *>(from))
+                    : cl::Buffer(context.cl(), CL_MEM_READ_WRITE, bytes);
+    } catch (const cl::Error &e) {
+        if (!is_out_of_memory(e)) throw;
+        fail(Fault::OutOfMemory, context.info().name, " refuses a buffer of ", bytes, " bytes (",
+             opencl_error_name(e.err()), ")");
+    }
+}
 
 void KernelTime::add(const cl::Event &event) {
     event.wait();

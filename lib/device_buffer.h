@@ -7,16 +7,18 @@
 
 namespace smx {
 
+// A buffer with these bytes, read-only, or an empty one where `from` is null. Throws OutOfMemory, with the size, where
+// the device refuses it.
+cl::Buffer make_buffer(const Context &context, std::size_t bytes, const void *from = nullptr);
+
 template <typename T>
 cl::Buffer buffer_from(const Context &context, const std::vector<T> &values) {
-    // The wrapper takes host memory as not const; CL_MEM_COPY_HOST_PTR only reads it.
-    return cl::Buffer(context.cl(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T),
-                      const_cast<T *>(values.data()));
+    return make_buffer(context, values.size() * sizeof(T), values.data());
 }
 
 template <typename T>
 cl::Buffer empty_buffer(const Context &context, std::size_t count) {
-    return cl::Buffer(context.cl(), CL_MEM_READ_WRITE, count * sizeof(T));
+    return make_buffer(context, count * sizeof(T));
 }
 
 constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {

@@ -37,6 +37,7 @@ template <typename... Parts>
 std::string text(const Parts &...parts) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
+    out.exceptions(std::ios::badbit); // a stream swallows what it meets otherwise, such as the end of memory
     (out << ... << parts);
     return out.str();
 }

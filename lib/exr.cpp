@@ -13,6 +13,7 @@
 
 #include "atomic_file.h"
 #include "error.h"
+#include "exr_header.h"
 #include "exr_rows.h"
 #include "exr_writer.h"
 #include "image.h"
@@ -33,30 +34,61 @@ void expect_rgb(const Imf::Header &header, const std::string &path) {
             fail(Fault::BadFormat, path, ": no channel ", image_channels[c], "; an image needs R, G and B");
 }
 
-Image read_pixels(const std::string &path) {
-    Imf::InputFile file(path.c_str());
-    expect_rgb(file.header(), path);
-    const auto window = file.header().dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width < 1 || height < 1 || width > max_side || height > max_side)
-        fail(Fault::BadFormat, path, ": ", width, " x ", height, " pixels; sides must be 1..", max_side);
-
-    Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-    Imf::FrameBuffer buffer;
-    insert_rows(buffer, image_channels, image.rgba.data(), image.width, window.min.x, window.min.y);
-    if (has_errors(file.header())) {
-        image.errors.resize(image.rgba.size());
-        insert_rows(buffer, error_channels, image.errors.data(), image.width, window.min.x, window.min.y);
+// Memory is touched as rows come: a header may declare far more than its file holds.
+class ExrReader {
+  public:
+    explicit ExrReader(const std::string &path) : file_(path.c_str()), window_(file_.header().dataWindow()) {
+        expect_rgb(file_.header(), path);
+        const std::int64_t width = std::int64_t{window_.max.x} - window_.min.x + 1;
+        const std::int64_t height = std::int64_t{window_.max.y} - window_.min.y + 1;
+        if (width < 1 || height < 1 || width > max_side || height > max_side)
+            fail(Fault::BadFormat, path, ": ", width, " x ", height, " pixels; sides must be 1..", max_side);
+        if (!file_.isComplete()) fail(Fault::BadFormat, path, ": rows are missing");
+        width_ = static_cast<std::uint32_t>(width);
+        height_ = static_cast<std::uint32_t>(height);
     }
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-    for (std::size_t at = 3; at < image.errors.size(); at += 4) image.errors[at] = image.rgba[at];
-    for (auto at = file.header().begin(); at != file.header().end(); ++at)
-        if (const auto *value = dynamic_cast<const Imf::StringAttribute *>(&at.attribute()))
-            image.attributes[at.name()] = value->value();
-    return image;
-}
+
+    Image read() {
+        constexpr std::uint32_t band = 256; // rows; no compression has larger blocks
+        const bool with_errors = has_errors(file_.header());
+        std::vector<float> rgba, errors;
+        for (std::uint32_t y = 0; y < height_; y += band) {
+            const std::uint32_t rows = std::min(band, height_ - y);
+            Imf::FrameBuffer buffer;
+            append_rows(buffer, image_channels, rgba, y, rows);
+            if (with_errors) append_rows(buffer, error_channels, errors, y, rows);
+            file_.setFrameBuffer(buffer);
+            file_.readPixels(line(y), line(y + rows - 1));
+        }
+        for (std::size_t at = 3; at < errors.size(); at += 4) errors[at] = rgba[at];
+        Image image(width_, height_, std::move(rgba));
+        image.errors = std::move(errors);
+        read_attributes(image);
+        return image;
+    }
+
+  private:
+    int line(std::uint32_t row) const { return window_.min.y + static_cast<int>(row); }
+
+    // Room for the rows, whose place the buffer learns.
+    void append_rows(Imf::FrameBuffer &buffer, const ChannelNames &names, std::vector<float> &values, std::uint32_t y,
+                     std::uint32_t rows) const {
+        const std::size_t row = std::size_t{4} * width_;
+        values.reserve(row * height_);
+        values.resize(row * (y + rows));
+        insert_rows(buffer, names, values.data() + row * y, width_, window_.min.x, line(y));
+    }
+
+    void read_attributes(Image &image) const {
+        for (auto at = file_.header().begin(); at != file_.header().end(); ++at)
+            if (const auto *value = dynamic_cast<const Imf::StringAttribute *>(&at.attribute()))
+                image.attributes[at.name()] = value->value();
+    }
+
+    Imf::InputFile file_;
+    const Imath::Box2i window_;
+    std::uint32_t width_ = 0, height_ = 0;
+};
 
 } // namespace
 
@@ -74,7 +106,8 @@ Image read_exr(const std::string &path) {
     if (!std::ifstream(path))
         fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
     try {
-        return read_pixels(path);
+        expect_sound_exr_header(path);
+        return ExrReader(path).read();
     } catch (const Error &) {
         throw;
     } catch (const std::bad_alloc &) {
@@ -86,8 +119,9 @@ Image read_exr(const std::string &path) {
 
 void write_exr(const Image &image, const std::string &path) {
     write_atomically(path, [&](const std::string &temporary) {
-        ExrWriter(temporary, image.width, image.height, image.attributes, !image.errors.empty())
-            .write(image.rgba.data(), image.errors.data(), image.height);
+        ExrWriter writer(temporary, image.width, image.height, image.attributes, !image.errors.empty());
+        writer.write(image.rgba.data(), image.errors.data(), image.height);
+        writer.finish();
     });
 }
 

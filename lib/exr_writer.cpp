@@ -2,8 +2,14 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+
+#include <cerrno>
+#include <fstream>
+#include <optional>
+#include <system_error>
 
 #include "exr_rows.h"
 
@@ -25,28 +31,67 @@ Imf::Header header_of(std::uint32_t width, std::uint32_t height, const std::map<
     return header;
 }
 
+// OpenEXR's own stream drops what fails when it closes: the last bytes, and the offsets of the rows.
+class CheckedStream : public Imf::OStream {
+  public:
+    explicit CheckedStream(const std::string &path) : OStream(path.c_str()) {
+        errno = 0;
+        out_.open(path, std::ios::binary);
+        check();
+    }
+    void write(const char bytes[], int count) override {
+        out_.write(bytes, count);
+        check();
+    }
+    uint64_t tellp() override { return static_cast<uint64_t>(std::streamoff(out_.tellp())); }
+    void seekp(uint64_t position) override {
+        out_.seekp(static_cast<std::streamoff>(position));
+        check();
+    }
+    void close() {
+        out_.close();
+        check();
+    }
+
+  private:
+    void check() const {
+        if (!out_) throw std::system_error(errno ? errno : EIO, std::generic_category());
+    }
+
+    std::ofstream out_;
+};
+
 } // namespace
 
 struct ExrWriter::File {
+    File(const std::string &path, std::uint32_t image_width, const Imf::Header &header, bool errors)
+        : width(image_width), with_errors(errors), stream(path), output(std::in_place, stream, header) {}
+
     std::uint32_t width;
     bool with_errors;
-    Imf::OutputFile output;
+    CheckedStream stream;
+    std::optional<Imf::OutputFile> output; // goes before its stream
 };
 
 ExrWriter::ExrWriter(const std::string &path, std::uint32_t width, std::uint32_t height,
                      const std::map<std::string, std::string> &attributes, bool with_errors)
-    : file_(new File{width, with_errors, {path.c_str(), header_of(width, height, attributes, with_errors)}}) {}
+    : file_(new File(path, width, header_of(width, height, attributes, with_errors), with_errors)) {}
 
 ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::write(const float *rgba, const float *errors, std::uint32_t rows) {
-    const int row = file_->output.currentScanLine();
+    const int row = file_->output->currentScanLine();
     Imf::FrameBuffer buffer;
     // OpenEXR only reads from the rows, but takes them as not const.
     insert_rows(buffer, image_channels, const_cast<float *>(rgba), file_->width, 0, row);
     if (file_->with_errors) insert_rows(buffer, error_channels, const_cast<float *>(errors), file_->width, 0, row);
-    file_->output.setFrameBuffer(buffer);
-    file_->output.writePixels(static_cast<int>(rows));
+    file_->output->setFrameBuffer(buffer);
+    file_->output->writePixels(static_cast<int>(rows));
+}
+
+void ExrWriter::finish() {
+    file_->output.reset();
+    file_->stream.close();
 }
 
 } // namespace smx

@@ -3,16 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "error.h"
 #include "scene.h"
 
 namespace smx {
 
-Image::Image(std::uint32_t image_width, std::uint32_t image_height) : width(image_width), height(image_height) {
+namespace {
+
+std::size_t legal_values(std::uint32_t width, std::uint32_t height) {
     require(width >= 1 && width <= max_side, "image width is ", width, "; it must be 1..", max_side);
     require(height >= 1 && height <= max_side, "image height is ", height, "; it must be 1..", max_side);
-    rgba.assign(4 * pixels(), 0.0f);
+    return std::size_t{4} * width * height;
+}
+
+} // namespace
+
+Image::Image(std::uint32_t image_width, std::uint32_t image_height)
+    : Image(image_width, image_height, std::vector<float>(legal_values(image_width, image_height))) {}
+
+Image::Image(std::uint32_t image_width, std::uint32_t image_height, std::vector<float> values)
+    : width(image_width), height(image_height), rgba(std::move(values)) {
+    const std::size_t legal = legal_values(width, height);
+    require(rgba.size() == legal, "an image of ", width, " x ", height, " pixels has ", legal, " values, not ",
+            rgba.size());
 }
 
 double quantile(const Image &image, double q) {

@@ -14,7 +14,8 @@ struct Image {
     std::vector<float> errors; // standard errors of R, G, B and the pixel's alpha, [height][width][4]; or empty
     std::map<std::string, std::string> attributes;
 
-    Image(std::uint32_t width, std::uint32_t height);
+    Image(std::uint32_t width, std::uint32_t height); // black, alpha 0
+    Image(std::uint32_t width, std::uint32_t height, std::vector<float> rgba);
     std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
 };
 

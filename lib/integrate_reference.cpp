@@ -112,8 +112,8 @@ Attempt try_pairs(Context &context, const IntegralTask &task, const RenderOption
             std::vector<float> rgba, errors;
         };
         const std::size_t most = 4 * std::size_t{most_rows(job.tiles)};
-        const auto own = std::make_shared<Own>(FacetIntegral(device, task, most_rows(job.tiles)),
-                                               std::vector<float>(most), std::vector<float>(most));
+        const auto own = std::make_shared<Own>(
+            Own{FacetIntegral(device, task, most_rows(job.tiles)), std::vector<float>(most), std::vector<float>(most)});
         return [own, &seen, count, fcos, errors](const Tile &tile, const Step &step) {
             const double seconds = own->integral.integrate(tile, {own->rgba.data(), own->errors.data()}, seen, step);
             scatter(own->rgba, tile, count, fcos);

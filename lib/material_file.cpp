@@ -1,15 +1,13 @@
 #include "material_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "atomic_file.h"
 #include "error.h"
 #include "fit_report_file.h"
 #include "json_reader.h"
+#include "read_file.h"
 
 namespace smx {
 
@@ -20,6 +18,8 @@ using nlohmann::ordered_json;
 
 constexpr const char *format_name = "slopemix-material";
 constexpr unsigned format_version = 2;
+constexpr std::size_t max_bytes = std::size_t{64} << 20; // 64 lobes of 4096 knots take half of it
+constexpr int max_depth = 16;                            // ours are 6 deep; a bracket may cost 60 times its byte
 
 ordered_json curves_to_json(const FresnelCurves &curves) {
     ordered_json out;
@@ -120,16 +120,19 @@ void check_values(const Material &m) {
             fail(Fault::BadFormat, "$.lobes[", k, "].alpha is ", m.lobes[k].alpha, ", below the lobe before it");
 }
 
+json parse(const std::string &bytes) {
+    return json::parse(bytes, [](int depth, json::parse_event_t, json &) {
+        if (depth > max_depth) fail(Fault::BadFormat, "it is nested more than ", max_depth, " deep");
+        return true;
+    });
+}
+
 } // namespace
 
 Material load_material(const std::string &path) {
-    std::error_code status;
-    if (std::filesystem::is_directory(path, status)) fail(Fault::CannotRead, "cannot read ", path, ": it is a folder");
-    errno = 0;
-    std::ifstream in(path);
-    if (!in) fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
+    const std::string bytes = read_file(path, max_bytes);
     try {
-        Material material = from_json(json::parse(in));
+        Material material = from_json(parse(bytes));
         check_values(material);
         return material;
     } catch (const json::exception &e) {

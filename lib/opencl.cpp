@@ -29,11 +29,14 @@ std::string opencl_error_name(cl_int code) {
     return text("OpenCL error ", code);
 }
 
-void fail_opencl(const cl::Error &error) {
+bool is_out_of_memory(const cl::Error &error) {
     const cl_int code = error.err();
-    const bool memory =
-        code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
-    fail(memory ? Fault::OutOfMemory : Fault::DeviceError, error.what(), ": ", opencl_error_name(code));
+    return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
+}
+
+void fail_opencl(const cl::Error &error) {
+    fail(is_out_of_memory(error) ? Fault::OutOfMemory : Fault::DeviceError, error.what(), ": ",
+         opencl_error_name(error.err()));
 }
 
 } // namespace smx

@@ -16,6 +16,9 @@ namespace smx {
 // Name of an OpenCL error code, like CL_OUT_OF_RESOURCES.
 std::string opencl_error_name(cl_int code);
 
+// The code is one of those that say that memory is short.
+bool is_out_of_memory(const cl::Error &error);
+
 // Turns an exception of the wrapper into ours: OutOfMemory for the codes that mean it, else DeviceError.
 [[noreturn]] void fail_opencl(const cl::Error &error);
 

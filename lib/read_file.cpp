@@ -1,5 +1,6 @@
 #include "read_file.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -16,11 +17,14 @@ std::string read_file(const std::string &path, std::size_t max_bytes) {
     std::ifstream in(path, std::ios::binary);
     if (!in) fail(Fault::CannotRead, "cannot read ", path, ": ", std::strerror(errno ? errno : ENOENT));
 
-    // No more than asked for is read, whatever the file says of its length: it may be a device or a pipe.
-    std::string bytes(max_bytes + 1, '\0');
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    // By parts, whatever the file says of its length: it may be a device or a pipe.
+    std::string bytes;
+    std::array<char, 1 << 16> part;
+    while (in && bytes.size() <= max_bytes) {
+        in.read(part.data(), part.size());
+        bytes.append(part.data(), static_cast<std::size_t>(in.gcount()));
+    }
     if (in.bad()) fail(Fault::CannotRead, "cannot read ", path, " to its end");
-    bytes.resize(static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > max_bytes) fail(Fault::BadFormat, path, ": more than the ", max_bytes, " bytes that are legal");
     return bytes;
 }

@@ -77,9 +77,11 @@ std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t 
 }
 
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes) {
+    constexpr std::size_t last = 8 * Brdf::theta_h_count;
     std::vector<float> table;
-    for (std::size_t k = 0; k < Brdf::theta_h_count; ++k) {
-        const double theta = Brdf::theta_h(k), tangent = std::tan(theta), cosine = std::cos(theta);
+    for (std::size_t k = 0; k < last; ++k) {
+        const double u = static_cast<double>(k) / last, theta = u * u * std::numbers::pi / 2;
+        const double tangent = std::tan(theta), cosine = std::cos(theta);
         double density = 0.0;
         for (const auto &[weight, alpha] : lobes)
             density += weight / (std::numbers::pi * alpha * alpha) * std::exp(-tangent * tangent / (alpha * alpha));

@@ -34,7 +34,7 @@ SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t
 // A seed for each pass of each scramble, without relation between them.
 std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass);
 
-// The proposal's density over solid angle at the table's rows theta_h = (k/90)^2 pi/2, k = 0..90.
+// The proposal's density over solid angle at theta_h = (k/720)^2 pi/2, k = 0..720 (PROPOSAL_NODES in cl/proposal.clh).
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes);
 
 } // namespace smx

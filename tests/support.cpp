@@ -29,14 +29,30 @@ std::string lower(std::string text) {
                                          << " with a message that has \"" << needle << "\"";
 }
 
-smx_context context() {
-    static const Context shared = [] {
-        Context c;
-        EXPECT_SMX_OK(smx_context_create(nullptr, c.out()));
-        return c;
-    }();
-    return shared;
-}
+namespace {
+
+// Goes before main() ends: an OpenCL implementation may keep what a release needs in thread-local objects, which are
+// gone when static ones go.
+class SharedContext : public ::testing::Environment {
+  public:
+    smx_context get() {
+        if (!context_) {
+            EXPECT_SMX_OK(smx_context_create(nullptr, context_.out()));
+        }
+        return context_;
+    }
+    void TearDown() override { context_ = Context(); }
+
+  private:
+    Context context_;
+};
+
+SharedContext *const shared_context = new SharedContext;
+[[maybe_unused]] const auto *const registered = ::testing::AddGlobalTestEnvironment(shared_context);
+
+} // namespace
+
+smx_context context() { return shared_context->get(); }
 
 Brdf make_brdf(const oracle::Table &table, const char *name) {
     Brdf b;

@@ -260,8 +260,12 @@ TEST(CliResume, AWholeSheetStays) {
     EXPECT_CLI_FAILS(1, "1.1.2.exr is not the image", small);
     fs::remove(dir / "1.1.2.exr");
     EXPECT_CLI_FAILS(1, "1.1.2.exr is not the image", small);
-    test::write_file(dir / "sheet.json", "{");
-    EXPECT_CLI_FAILS(1, "damaged", small);
+    json document = json::parse(before.at("sheet.json"));
+    document["images"] = {1};
+    for (const std::string &damaged : {document.dump(), std::string("{")}) {
+        test::write_file(dir / "sheet.json", damaged);
+        EXPECT_CLI_FAILS(1, "damaged", small);
+    }
 }
 
 TEST(CliResume, AFolderHasOneRun) {

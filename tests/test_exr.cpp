@@ -179,3 +179,20 @@ TEST(Exr, FailedWritesLoseNothing) {
     EXPECT_SMX_FAILS(SMX_CANNOT_WRITE, "absent", smx_image_write_png(image, (dir / "absent/a.png").c_str(), 1.0));
     EXPECT_EQ(dir.names(), (std::vector<std::string>{"kept.exr", "kept.png"}));
 }
+
+// A disk may be full at the last byte: what waits in a buffer, and the offsets that go to the head at the end.
+TEST(Exr, ADiskThatIsFullAtTheLastByteIsNoticed) {
+    const test::TempDir dir;
+    const std::string path = dir / "kept.exr";
+    for (const uint32_t side : {2u, 64u}) {
+        const test::Image image = make_image(side, side, hard_pixels(side, side));
+        ASSERT_SMX_OK(smx_image_write_exr(image, path.c_str()));
+        const std::string whole = test::read_file(path);
+        for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{1}}) {
+            const test::FileSizeLimit full(size);
+            EXPECT_SMX_FAILS(SMX_CANNOT_WRITE, "kept.exr", smx_image_write_exr(image, path.c_str())) << size;
+        }
+        EXPECT_TRUE(test::read_file(path) == whole);
+        EXPECT_EQ(dir.names(), std::vector<std::string>{"kept.exr"});
+    }
+}

@@ -316,8 +316,9 @@ TEST(Samplers, FacetsOfTheProposalKnowTheirCorrection) {
                 const double share = lobe.weight / (oracle::pi * a2) * std::exp(-tangent2 / a2);
                 p22 += share, slope += share * tangent2 / a2;
             }
-            const double row = 90.0 * std::sqrt(std::atan(std::sqrt(tangent2)) * 2.0 / oracle::pi);
-            const auto below = static_cast<std::size_t>(std::min(row, 89.0));
+            const auto last = static_cast<double>(table.size() - 1);
+            const double row = last * std::sqrt(std::atan(std::sqrt(tangent2)) * 2.0 / oracle::pi);
+            const auto below = static_cast<std::size_t>(std::min(row, last - 1.0));
             const double a = table[below], b = table[below + 1];
             const double wanted = std::lerp(a, b, row - static_cast<double>(below)) / (p22 * std::pow(inv_cos2, 1.5));
             const double cond = 2.0 * slope / p22 + 3.0 * inv_cos2; // z - 1 is kept, z is not

@@ -180,6 +180,11 @@ std::vector<double> evaluate(std::uint32_t width, const char *call, Grade grade,
     return smx::with_real(grade, [&](auto real) { return on_device<decltype(real)>(context, call, grade, inputs); });
 }
 
+// How far lanes may differ, relative: ours not at all; a device's own functions, of scalars and of vectors, may be two.
+double slack(const Function &function, Grade grade) {
+    return function.ours ? 0.0 : 2.0 * function.largest[static_cast<std::size_t>(grade)];
+}
+
 bool has_double() { return smx::Context("", 0).info().has_double; }
 
 void expect_stated_errors(Grade grade) {
@@ -219,9 +224,13 @@ TEST(Vecmath, LanesDoNotMatter) {
         for (const Function &function : functions()) {
             std::vector<Input> inputs = function.inputs;
             const std::vector<double> one = evaluate(1, function.call, grade, inputs);
-            for (const std::uint32_t width : {4u, 8u, 16u})
-                EXPECT_EQ(evaluate(width, function.call, grade, inputs), one)
-                    << function.call << ", " << width << " lanes, grade " << smx::grade_name(grade);
+            for (const std::uint32_t width : {4u, 8u, 16u}) {
+                const std::vector<double> wide = evaluate(width, function.call, grade, inputs);
+                for (std::size_t k = 0; k < one.size(); ++k)
+                    ASSERT_LE(std::abs(wide[k] - one[k]), slack(function, grade) * std::abs(one[k]))
+                        << function.call << " at x = " << inputs[k].x << ", y = " << inputs[k].y << ", " << width
+                        << " lanes, grade " << smx::grade_name(grade);
+            }
         }
 }
 

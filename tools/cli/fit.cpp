@@ -1,6 +1,7 @@
 // slopemix fit: measured tables and slope densities to material files, many at a time; what is up to date stays.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "fit_row.h"
 #include "fit_table.h"
 #include "fit_worker.h"
+#include "folder_lock.h"
 #include "output.h"
 #include "progress.h"
 #include "workers.h"
@@ -43,6 +45,16 @@ void require_writable_outputs(const FitJob &job) {
     }
     require_writable(FitTable::json_in(job.out));
     require_writable(FitTable::csv_in(job.out));
+}
+
+// All that a run may write.
+std::vector<std::filesystem::path> files_of(const FitJob &job) {
+    std::vector<std::filesystem::path> files = {FitTable::json_in(job.out), FitTable::csv_in(job.out)};
+    for (const std::string &input : job.inputs) {
+        files.push_back(job.file_for(input));
+        files.push_back(job.plot_for(input));
+    }
+    return files;
 }
 
 // All inputs on their threads. What is finished is in the table, and in the outcomes, whatever comes after it.
@@ -103,6 +115,8 @@ void run(const FitJob &job) {
     refuse_equal_names(job);
     for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
     require_writable_outputs(job);
+    const FolderLock lock(job.out); // the table of fits is one run's at a time
+    remove_leftovers(files_of(job));
     FitRun fits(job);
     bool cancelled = false;
     try {

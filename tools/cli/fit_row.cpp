@@ -74,7 +74,7 @@ std::string shortest(double value) {
 
 std::string text_of(const Json &value) {
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
+    if (value.is_number_integer()) return value.dump();
     if (value.is_number()) return shortest(value.get<double>());
     std::string list;
     for (const Json &element : value) {

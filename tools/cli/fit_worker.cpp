@@ -82,8 +82,10 @@ void FitWorker::fit_input(const std::string &input, FitOutcome &outcome) const {
     const bool up_to_date = material != nullptr;
     if (!up_to_date) {
         material = fit(source.density(), source.flags());
-        make_folder_of(file);
-        check(smx_material_save(material.get(), file.c_str()));
+        StagedFiles files;
+        files.write(file,
+                    [&](const fs::path &temporary) { check(smx_material_save(material.get(), temporary.c_str())); });
+        files.commit();
     }
     Fitted &fitted = outcome.fitted.emplace(describe(source, material, up_to_date));
     if (job_.metrics && !fitted.metrics && source.brdf()) fitted.metrics = measure_fit(source, material);

@@ -75,8 +75,11 @@ void SheetJournal::require_complete(const Json &settings) {
     const Json document = Journal::read_object(file);
     Journal::require_settings(file, document, settings);
     std::map<std::string, Json> digests;
-    for (const Json &image : document.value("images", Json::array()))
-        digests[image.value("id", "")] = image.value("sha256", Json());
+    for (const Json &image : document.value("images", Json::array())) {
+        if (!image.is_object() || !image.value("id", Json()).is_string())
+            Journal::refuse(file, "it is damaged, an image has no id");
+        digests[image["id"].get<std::string>()] = image.value("sha256", Json());
+    }
     for (const SheetStep &step : plan_.steps()) {
         const std::string id = to_string(step.image.id);
         if (step.is_output && digests[id] != sha256_of_file(job_.image_file(step.image.id)))
