@@ -26,16 +26,6 @@ std::uint32_t facets_per_launch(std::size_t items, const SamplingPlan &plan) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, plan.samples_per_scramble()));
 }
 
-// The proposal as draw_about_z takes it: cumulated weights and alphas.
-std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
-    std::vector<cl_float2> out;
-    double sum = 0.0;
-    for (const auto &[weight, alpha] : lobes)
-        out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
-    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // a buffer cannot be empty
-    return out;
-}
-
 // The image's theta_d in rows of the whole table.
 template <typename Real>
 Real table_row(const Scene &scene) {

@@ -78,6 +78,15 @@ std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t 
     return static_cast<std::uint32_t>(z ^ (z >> 31));
 }
 
+std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
+    std::vector<cl_float2> out;
+    double sum = 0.0;
+    for (const auto &[weight, alpha] : lobes)
+        out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
+    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // a buffer cannot be empty
+    return out;
+}
+
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes) {
     std::vector<float> table;
     for (std::size_t k = 0; k < Brdf::theta_h_count; ++k) {
