@@ -202,17 +202,27 @@ inline float sum_lanes(realW v) {
     return sum;
 }
 
-// Steps of the two-dimensional golden ratio, 1/g and 1/g^2 with g^3 = g + 1, times 2^32: multiples of them, from a
-// random start, cover the periodic tile evenly however many there are.
+// Steps of the two-dimensional golden ratio, 1/g and 1/g^2 with g^3 = g + 1, times 2^32: multiples of them cover the
+// periodic tile evenly however many there are.
 #define GOLDEN_X 3242174889u
 #define GOLDEN_Y 2447445413u
+
+// Rays of one launch begin in one window of the tile, of at most 256 x 256 cells, which a core's cache holds. Windows
+// follow each other by golden steps, and so do a pixel's points within a window, from a start of its own.
+#define LOG2_WINDOW 8
+
+inline uint2 ray_origin(const Surface *s, uint window, uint2 start, uint index) {
+    uint shift = (uint)max(s->frame.log2_side - LOG2_WINDOW, 0);
+    return (uint2)(window * GOLDEN_X + ((start.x + index * GOLDEN_X) >> shift),
+                   window * GOLDEN_Y + ((start.y + index * GOLDEN_Y) >> shift));
+}
 
 // Sums of a pixel's paths first, first + 1, ..., `size` of them, [rows][width]; alpha 1 on the sphere. Work-item (c, r)
 // is pixel c of row first_row + r.
 __kernel void integrate_geometric(__global float4 *sums, int first_row, SphereView view, TileFrame frame,
                                   __global const float *heights, __global const float *maxima,
                                   __global const float4 *table, __constant float2 *lobes, int lobe_count, int bounces,
-                                  uint seed, uint first, uint size) {
+                                  uint seed, uint window, uint first, uint size) {
     int column = (int)get_global_id(0), tile_row = (int)get_global_id(1), row = first_row + tile_row;
     if (column >= view.width) return;
     Surface s = {frame, heights, maxima};
@@ -220,7 +230,7 @@ __kernel void integrate_geometric(__global float4 *sums, int first_row, SphereVi
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
     VectorW wi = {(realW)v.wi.x, (realW)v.wi.y, (realW)v.wi.z};
     uint pixel_seed = pcg((uint)(row * view.width + column) ^ pcg(seed));
-    uint offset_x = pcg(pixel_seed), offset_y = pcg(offset_x);
+    uint2 start = (uint2)(pcg(pixel_seed), pcg(pixel_seed + 1u));
 
     for (uint batch = first; v.lit && batch < first + size; batch += W) {
         // The first facets.
@@ -232,9 +242,9 @@ __kernel void integrate_geometric(__global float4 *sums, int first_row, SphereVi
             seeds[lane] = pcg(index ^ pixel_seed);
             p.ox[lane] = v.wo.x, p.oy[lane] = v.wo.y, p.oz[lane] = v.wo.z;
             p.mx[lane] = 0.0f, p.my[lane] = 0.0f, p.mz[lane] = 1.0f;
-            weight[lane] = index < first + size ? first_facet(&p, lane, &s, offset_x + index * GOLDEN_X,
-                                                              offset_y + index * GOLDEN_Y, v.wo, v.to_viewer)
-                                                : 0.0f;
+            uint2 origin = ray_origin(&s, window, start, index);
+            weight[lane] =
+                index < first + size ? first_facet(&p, lane, &s, origin.x, origin.y, v.wo, v.to_viewer) : 0.0f;
             p.alive[lane] = weight[lane] > 0.0f;
         }
         realW w = vloadW(0, weight);

@@ -11,9 +11,9 @@ namespace smx {
 
 namespace {
 
-// Samples of a pixel per launch: few enough that a cancel is heard within seconds, and the same for every tile, so that
-// the sums are.
-constexpr std::uint32_t launch_samples = 64;
+// Samples of a pixel per launch, all in one window of the tile: the same for every tile of the image, so that the sums
+// are, and few enough to be spread over many windows.
+constexpr std::uint32_t launch_samples = 16;
 
 } // namespace
 
@@ -54,8 +54,9 @@ void GeometricIntegral::begin(const HeightField &field, std::uint32_t realisatio
 void GeometricIntegral::add_samples(const Tile &tile, std::uint32_t first) {
     const std::size_t pixels = std::size_t{tile.rows} * task_.scene->width;
     kernel_.setArg(1, static_cast<cl_int>(tile.first_row));
-    kernel_.setArg(11, static_cast<cl_uint>(first));
-    kernel_.setArg(12, static_cast<cl_uint>(std::min(launch_samples, task_.samples - first)));
+    kernel_.setArg(11, static_cast<cl_uint>(first / launch_samples));
+    kernel_.setArg(12, static_cast<cl_uint>(first));
+    kernel_.setArg(13, static_cast<cl_uint>(std::min(launch_samples, task_.samples - first)));
     seconds_ += launch(device_, kernel_, task_.scene->width, tile.rows, task_.tiling.work_group);
     read_rows(device_, sums_, pixels, launched_.data());
     for (std::size_t k = 0; k < pixels; ++k)
