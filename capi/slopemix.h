@@ -150,7 +150,8 @@ typedef struct smx_brdf_info {
     { sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0 }
 
 /* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
- * sharp white gloss), "builtin:conductor" (one rough metal lobe), or one by formula:
+ * sharp white gloss), "builtin:conductor" (one rough metal lobe), "builtin:mirror" (reflects all light, within 2e-3 of
+ * the mirrored direction), or one by formula:
  *   "analytic:beckmann,alpha=A,f0=F", "analytic:ggx,alpha=A,f0=F", "analytic:blinn-phong,exponent=E,f0=F":
  *       f = (F + (1 - F)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o), height-correlated Smith, Schlick's Fresnel curve;
  *       A 1e-3..10, E 0..1e6; Blinn-Phong's D = (E + 2) / (2 pi) cos^E, its projected area integrated numerically

@@ -90,8 +90,6 @@ TEST(CastRays, AgreeWithAPlainCasterInDouble) {
                                        {0.5, 0.1, 0.6, 0.2, -0.1},
                                        {0.0, 0.5, 0.0, 0.0, 0.0}}) {
         const Differences d = compare(x, count, 11);
-        std::cout << "alpha " << x.alpha_x << " " << x.alpha_y << ": triangle " << d.triangle << ", place " << d.place
-                  << ", lit " << d.lit << ", missed " << d.missed << "\n";
         all.triangle += d.triangle, all.place += d.place, all.lit += d.lit, all.missed += d.missed;
     }
     EXPECT_LE(all.triangle + all.place + all.lit + all.missed, 10u);
