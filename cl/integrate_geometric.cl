@@ -159,7 +159,11 @@ inline RgbW go_on(Paths *p, RgbW *throughput, const Surface *s, __global const f
         if (!p->alive[lane]) continue;
         float3 d = tile_direction(s, p->ox[lane], p->oy[lane], p->oz[lane]);
         int left = follow_ray(p, lane, s, d);
-        lit[lane] = left || (!SHADOWING && d.z > 0.0f);
+#if SHADOWING
+        lit[lane] = left;
+#else
+        lit[lane] = left || d.z > 0.0f;
+#endif
         p->alive[lane] = !left;
         // At its next facet, the path comes from where it was.
         p->ox[lane] = -p->ox[lane], p->oy[lane] = -p->oy[lane], p->oz[lane] = -p->oz[lane];
@@ -190,7 +194,10 @@ inline PixelView pixel_view(const SphereView *view, int column, int row, const S
     v.wo = (float3)(first_lane(p.ox), first_lane(p.oy), first_lane(p.oz));
     v.to_light = tile_direction(s, v.wi.x, v.wi.y, v.wi.z);
     v.to_viewer = tile_direction(s, v.wo.x, v.wo.y, v.wo.z);
-    v.lit = v.there && v.to_viewer.z > 0.0f && (UNIFORM_LIGHT ? 1 : v.wi.z > 0.0f && v.to_light.z > 0.0f);
+    v.lit = v.there && v.to_viewer.z > 0.0f;
+#if !UNIFORM_LIGHT
+    v.lit = v.lit && v.wi.z > 0.0f && v.to_light.z > 0.0f;
+#endif
     return v;
 }
 
@@ -253,15 +260,13 @@ __kernel void integrate_geometric(__global float4 *sums, int first_row, SphereVi
 #else
         RgbW throughput = {w, w, w};
         for (int bounce = 0; bounce <= bounces; ++bounce) {
-#if !UNIFORM_LIGHT
-            sum = plus(sum, times(throughput, direct_light(&p, &s, table, wi, v.to_light)));
-            if (bounce == bounces) break;
-#endif
+            if (!UNIFORM_LIGHT) {
+                sum = plus(sum, times(throughput, direct_light(&p, &s, table, wi, v.to_light)));
+                if (bounce == bounces) break;
+            }
             UniformsW u = next_uniforms(seeds, bounce);
-            RgbW light = go_on(&p, &throughput, &s, table, lobes, lobe_count, u);
-#if UNIFORM_LIGHT
-            sum = plus(sum, light);
-#endif
+            RgbW escaped = go_on(&p, &throughput, &s, table, lobes, lobe_count, u);
+            if (UNIFORM_LIGHT) sum = plus(sum, escaped);
             if (!anyW(vloadW(0, p.alive) != (intW)0)) break;
         }
 #endif

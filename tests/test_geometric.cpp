@@ -85,7 +85,9 @@ double share_beyond(const Geometric &g, const std::vector<double> &wanted, doubl
 // Of Student's t with 31 degrees of freedom: 5 % lie beyond.
 constexpr uint32_t realisations = 32;
 constexpr double t_5_percent = 2.0395;
-// Some 150 pixels see the same tiles: as if a third of them were independent, 5 % +- 3 %, and three of these.
+// Some 190 pixels see the same tiles, and are as good as 50 that do not: 5 % +- 3 %, and three of these. (Over ten
+// seeds the shares were 3 to 11 %, their mean 5 to 8 %: where little is lit, few bright samples make a mean of 32
+// lean.)
 constexpr double most_beyond = 0.14;
 
 } // namespace
@@ -103,7 +105,7 @@ TEST(Geometric, WithoutMaskingAndShadowingIsTheStatisticalReferenceWithoutThem) 
     const test::Brdf brdf = test::make_brdf(test::beckmann_table({{1.0, 0.4}}, oracle::Masking::correlated));
     for (const smx_displacement &x :
          {smx_displacement{0.25, 0.25, 0.0, 0.0, 0.0}, {0.4, 0.1, 0.5, 0.0, 0.0}, {0.0, 0.3, 0.0, 0.1, 0.0}}) {
-        Settings s(16, 0.0, realisations, 64);
+        Settings s(16, 0.0, realisations, 256);
         s.scene.displacement = x;
         s.geometric.masking = s.geometric.shadowing = 0;
         const Geometric g = render(brdf, s);
