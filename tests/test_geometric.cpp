@@ -129,6 +129,24 @@ TEST(Geometric, IsNearTheStatisticalReference) {
     EXPECT_LT(test::relrmse(g.image, reference), 0.08);
 }
 
+// Where the light is at the viewer, what is seen is lit: the ray to it is the ray that came. (Smith's formula takes a
+// share there, and so is beneath.)
+TEST(Geometric, WhatIsSeenFromTheLightIsLit) {
+    const test::Brdf brdf = open("analytic:lambert,albedo=1");
+    Settings s(16, 1.0, 4, 256);
+    s.scene.light_phi = test::radians(90.0);
+    const Geometric shadowed = render(brdf, s);
+    s.geometric.shadowing = 0;
+    const Geometric unshadowed = render(brdf, s);
+    // A ray that goes back along an edge that it just missed may meet it by rounding.
+    EXPECT_LT(test::relrmse(shadowed.image, unshadowed.image), 1e-4);
+    const test::Image smith = test::render_reference(brdf, s.scene, test::make_options(4096));
+    double below = 0.0;
+    for (std::size_t k = 0; k < std::size_t{4} * 16 * 16; k += 4)
+        below += shadowed.pixels()[k] - smx_image_pixels(smith)[k];
+    EXPECT_GT(below, 0.0);
+}
+
 // A furnace: no light is lost at facets that reflect all of it, once it may go on until it is out.
 TEST(Geometric, WhiteFurnace) {
     constexpr double energy_tolerance = 0.005;
