@@ -463,7 +463,7 @@ typedef enum smx_masking {
 
 typedef enum smx_light {
     SMX_LIGHT_DIRECTIONAL = 0, /* of unit perpendicular irradiance */
-    SMX_LIGHT_UNIFORM = 1 /* radiance 1 from every direction above the surface: a furnace. smx_render_geometric only */
+    SMX_LIGHT_UNIFORM = 1      /* radiance 1 from every direction above: a furnace; smx_render_geometric only */
 } smx_light;
 
 /* A unit sphere that fills the smaller side of the image, orthographic camera on +y looking along -y, right = +x,
@@ -582,7 +582,8 @@ SMX_API smx_status smx_render_geometric(smx_context context, smx_brdf brdf, cons
                                         const smx_render_options *options, const smx_geometric_options *geometric,
                                         smx_image *image, smx_render_report *report);
 
-/* A picture of the displaced sphere, relief exaggerated and shaded so that its shape shows. Same statuses. */
+/* A picture of the displaced sphere: smx_render_geometric's height field, exaggerated and lit so that its shape shows.
+ * Same statuses. */
 SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *scene, const smx_render_options *options,
                                        smx_image *image, smx_render_report *report);
 
