@@ -53,6 +53,21 @@ BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS, 0)->Name("reference.slice.mis
 BENCHMARK_CAPTURE(reference, grid, SMX_SAMPLER_GRID, 1)->Name("reference.full.grid")->UseManualTime();
 BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS, 1)->Name("reference.full.mis")->UseManualTime();
 
+// Primary ray, shadow ray and lookup, on a tile of 1024 x 1024; paths go on to a second facet.
+void geometric(benchmark::State &state, uint32_t bounces) {
+    const smx_scene scene = bench_scene(128);
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.spp = 256;
+    smx_geometric_options how = SMX_GEOMETRIC_OPTIONS_INIT;
+    how.realisations = 2;
+    how.bounces = bounces;
+    measure(state, [&](smx_image *image, smx_render_report *report) {
+        return smx_render_geometric(shared_context(), two_layer(), &scene, &options, &how, image, report);
+    });
+}
+BENCHMARK_CAPTURE(geometric, single, 0)->Name("geometric.single")->UseManualTime();
+BENCHMARK_CAPTURE(geometric, bounce, 1)->Name("geometric.bounce")->UseManualTime();
+
 // Pairs of directions, all with another theta_d.
 void reference_pairs(benchmark::State &state, smx_sampler sampler) {
     constexpr size_t count = 4096;

@@ -2,6 +2,7 @@
 #include "draw_geometry.h"
 #include "eval_table.h"
 #include "handles.h"
+#include "integrate_geometric.h"
 #include "integrate_reference.h"
 #include "shade_filtered.h"
 
@@ -14,7 +15,16 @@ Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x
 smx_displacement to_c(const Displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
 Scene to_cpp(const smx_scene &s) {
-    return {s.width, s.height, s.light_phi, to_cpp(s.displacement), static_cast<Masking>(s.masking)};
+    return {s.width,
+            s.height,
+            s.light_phi,
+            to_cpp(s.displacement),
+            static_cast<Masking>(s.masking),
+            static_cast<Light>(s.light)};
+}
+
+GeometricOptions to_cpp(const smx_geometric_options &g) {
+    return {g.tile, g.realisations, g.masking != 0, g.shadowing != 0, g.bounces};
 }
 
 RenderOptions to_cpp(const smx_render_options &o) {
@@ -50,7 +60,7 @@ ProposalSource proposal_of(smx_brdf brdf) {
     };
 }
 
-// What the three integrators have in common: arguments, and outputs that are written only at the end.
+// What the integrators have in common: arguments, and outputs that are written only at the end.
 template <typename Integrator>
 smx_status render(smx_context context, const void *material, const char *material_name, const smx_scene *scene,
                   const smx_render_options *options, smx_image *image, smx_render_report *report,
@@ -98,6 +108,17 @@ smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_sc
                   [&](Context &c, const Scene &s, const RenderOptions &o) {
                       const auto kept = brdf->object;
                       return integrate_reference(c, *kept, proposal_of(brdf), s, o);
+                  });
+}
+
+smx_status smx_render_geometric(smx_context context, smx_brdf brdf, const smx_scene *scene,
+                                const smx_render_options *options, const smx_geometric_options *geometric,
+                                smx_image *image, smx_render_report *report) {
+    return render(context, brdf, "brdf", scene, options, image, report,
+                  [&](Context &c, const Scene &s, const RenderOptions &o) {
+                      const auto kept = brdf->object;
+                      const GeometricOptions g = to_cpp(checked(geometric, SMX_GEOMETRIC_OPTIONS_INIT, "geometric"));
+                      return integrate_geometric(c, *kept, proposal_of(brdf), s, o, g);
                   });
 }
 

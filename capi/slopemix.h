@@ -151,7 +151,8 @@ typedef struct smx_brdf_info {
     { sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0 }
 
 /* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
- * sharp white gloss), "builtin:conductor" (one rough metal lobe), or one by formula:
+ * sharp white gloss), "builtin:conductor" (one rough metal lobe), "builtin:mirror" (reflects all light, within 2e-3 of
+ * the mirrored direction), or one by formula:
  *   "analytic:beckmann,alpha=A,f0=F", "analytic:ggx,alpha=A,f0=F", "analytic:blinn-phong,exponent=E,f0=F":
  *       f = (F + (1 - F)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o), height-correlated Smith, Schlick's Fresnel curve;
  *       A 1e-3..10, E 0..1e6; Blinn-Phong's D = (E + 2) / (2 pi) cos^E, its projected area integrated numerically
@@ -466,17 +467,26 @@ typedef enum smx_masking {
     SMX_G2_SEPARABLE = 1   /* G1(wi) G1(wo) */
 } smx_masking;
 
+typedef enum smx_light {
+    SMX_LIGHT_DIRECTIONAL = 0, /* of unit perpendicular irradiance */
+    SMX_LIGHT_UNIFORM = 1      /* radiance 1 from every direction above: a furnace; smx_render_geometric only */
+} smx_light;
+
 /* A unit sphere that fills the smaller side of the image, orthographic camera on +y looking along -y, right = +x,
- * up = +z; a directional light in the plane z = 0. */
+ * up = +z; a directional light in the plane z = 0, or a uniform one. */
 typedef struct smx_scene {
     size_t size;
     uint32_t width, height; /* 1..16384 */
     double light_phi;       /* finite; pi/2 is at the camera, 0 at the right, negative behind */
     smx_displacement displacement;
     smx_masking masking;
+    smx_light light;
 } smx_scene;
-#define SMX_SCENE_INIT \
-    { sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED }
+#define SMX_SCENE_INIT                                                                                 \
+    {                                                                                                  \
+        sizeof(smx_scene), 128, 128, 1.5707963267948966, {0.0, 0.0, 0.0, 0.0, 0.0}, SMX_G2_CORRELATED, \
+            SMX_LIGHT_DIRECTIONAL                                                                      \
+    }
 
 /* Where the reference's facets come from. Where one alpha is 0, every sampler spreads all samples along the other axis;
  * where both are, one sample is exact. */
@@ -556,7 +566,30 @@ SMX_API smx_status smx_render_filtered(smx_context context, smx_material materia
 SMX_API smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
                                         const smx_render_options *options, smx_image *image, smx_render_report *report);
 
-/* A picture of the displaced sphere, relief exaggerated and shaded so that its shape shows. Same statuses. */
+/* What the geometric reference lets light do; each can be left out. */
+typedef struct smx_geometric_options {
+    size_t size;
+    uint32_t tile; /* cells along a side of the tile: a power of two, 64..8192, that the device's memory holds */
+    uint32_t realisations; /* independent tiles, 1..65536, with an equal share of the samples each */
+    uint32_t bounces;      /* interreflection: facets, after the first one seen, that light may have met, 0..1024 */
+    int masking;           /* nonzero: facets behind others are not seen */
+    int shadowing;         /* nonzero: the light does not reach facets behind others */
+} smx_geometric_options;
+#define SMX_GEOMETRIC_OPTIONS_INIT \
+    { sizeof(smx_geometric_options), 1024, 16, 0, 1, 1 }
+
+/* The geometric reference: rays against realisations of a displaced surface, a tileable Gaussian random height field
+ * whose facets have X's slopes (docs/geometric.md). Masking and shadowing are what rays meet; scene->masking has no
+ * part in it. Of the options, spp (a multiple of the realisations), seed, lookup, errors, exr_path and progress count;
+ * target_error must be 0. The standard error, absent for one realisation, is from the spread of the realisations, and
+ * so has the tile's own share. `geometric` may be NULL. Statuses: those of smx_render_reference, which it fits the
+ * table's mixture like where paths go on. */
+SMX_API smx_status smx_render_geometric(smx_context context, smx_brdf brdf, const smx_scene *scene,
+                                        const smx_render_options *options, const smx_geometric_options *geometric,
+                                        smx_image *image, smx_render_report *report);
+
+/* A picture of the displaced sphere: smx_render_geometric's height field, exaggerated and lit so that its shape shows.
+ * Same statuses. */
 SMX_API smx_status smx_render_geometry(smx_context context, const smx_scene *scene, const smx_render_options *options,
                                        smx_image *image, smx_render_report *report);
 

@@ -10,7 +10,8 @@ namespace smx {
 
 constexpr std::string_view builtin_prefix = "builtin:";
 
-// "builtin:two-layer": a rough coloured body under a sharp white gloss; "builtin:conductor": one rough metal lobe.
+// "builtin:two-layer": a rough coloured body under a sharp white gloss; "builtin:conductor": one rough metal lobe;
+// "builtin:mirror": reflects all light, as sharply as the table holds.
 // Throws InvalidArgument for another name.
 Brdf make_builtin(const std::string &name);
 

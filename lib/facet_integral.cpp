@@ -36,16 +36,6 @@ std::vector<cl::Buffer> seeds_of(const Context &device, const SamplingPlan &plan
     return buffers;
 }
 
-// The proposal as draw_about_z takes it: cumulated weights and alphas.
-std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
-    std::vector<cl_float2> out;
-    double sum = 0.0;
-    for (const auto &[weight, alpha] : lobes)
-        out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
-    if (out.empty()) out.push_back({{1.0f, 1.0f}}); // whose facets the density of 0 gives no weight
-    return out;
-}
-
 // The image's theta_d in rows of the whole table.
 template <typename Real>
 Real table_row(const Scene &scene) {
@@ -111,7 +101,7 @@ cl::Kernel FacetIntegral::drawing_kernel(std::size_t index, const cl::Buffer &fa
     kernel.setArg(3, seeds_[index]);
     if (pass.drawing == Drawing::AboutZ) {
         kernel.setArg(4, lobes_);
-        kernel.setArg(5, static_cast<cl_int>(std::max<std::size_t>(task_.proposal->size(), 1)));
+        kernel.setArg(5, static_cast<cl_int>(cumulated(*task_.proposal).size()));
         kernel.setArg(6, density_);
     } else {
         kernel.setArg(4, to_device(task_.displacement));

@@ -133,6 +133,7 @@ Attempt try_pairs(Context &context, const IntegralTask &task, const RenderOption
 Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
                              const RenderOptions &options) {
     validate(scene);
+    require_directional(scene);
     validate(options);
     validate(options.grade, context);
     const Context::Lock lock(context);

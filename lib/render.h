@@ -56,7 +56,7 @@ using StartRows = std::function<RenderRows(Context &device, std::uint32_t most_r
 double render_tiles(Context &context, const Scene &scene, const RenderOptions &options, Canvas &canvas,
                     const StartRows &start);
 
-// One evaluation per pixel, and nothing more to it: the whole of the filtered and the geometric integrator.
+// One evaluation per pixel, and nothing more to it: the whole of the filtered integrator and of the geometry's picture.
 Rendered render_once(Context &context, const Scene &scene, const RenderOptions &options, const Attributes &attributes,
                      const StartRows &start);
 

@@ -76,6 +76,15 @@ std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t 
     return static_cast<std::uint32_t>(z ^ (z >> 31));
 }
 
+std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes) {
+    std::vector<cl_float2> out;
+    double sum = 0.0;
+    for (const auto &[weight, alpha] : lobes)
+        out.push_back({{static_cast<float>(sum += weight), static_cast<float>(alpha)}});
+    if (out.empty()) out.push_back({{1.0f, 1.0f}});
+    return out;
+}
+
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes) {
     constexpr std::size_t last = 8 * Brdf::theta_h_count;
     std::vector<float> table;

@@ -34,6 +34,10 @@ SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t
 // A seed for each pass of each scramble, without relation between them.
 std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass);
 
+// The proposal as kernels draw from it: cumulated weights and alphas. Where there are no lobes, one of alpha 1 that
+// nothing is asked of: a buffer cannot be empty.
+std::vector<cl_float2> cumulated(const std::vector<Lobe> &lobes);
+
 // The proposal's density over solid angle at theta_h = (k/720)^2 pi/2, k = 0..720 (PROPOSAL_NODES in cl/proposal.clh).
 std::vector<float> proposal_table(const std::vector<Lobe> &lobes);
 

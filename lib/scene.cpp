@@ -60,6 +60,12 @@ void validate(const Scene &s) {
     require(std::isfinite(s.light_phi), "light_phi is ", s.light_phi, "; it must be finite");
     validate(s.masking);
     validate(s.displacement);
+    require(s.light == Light::Directional || s.light == Light::Uniform, "light is ", static_cast<int>(s.light),
+            "; it must be 0 or 1");
+}
+
+void require_directional(const Scene &s) {
+    require(s.light == Light::Directional, "light is 1 (uniform); this integrator takes only 0 (directional)");
 }
 
 PrincipalAxes principal_axes(const Displacement &x) {

@@ -20,11 +20,15 @@ Displacement operator+(const Displacement &x, const Displacement &y);
 
 enum class Masking { Correlated = 0, Separable = 1 };
 
+// One direction of unit perpendicular irradiance, or radiance 1 from every direction above the surface.
+enum class Light { Directional = 0, Uniform = 1 };
+
 struct Scene {
     std::uint32_t width = 128, height = 128;
     double light_phi = 0.0;
     Displacement displacement;
     Masking masking = Masking::Correlated;
+    Light light = Light::Directional;
 };
 
 constexpr std::uint32_t max_side = 16384;
@@ -33,6 +37,9 @@ constexpr std::uint32_t max_side = 16384;
 void validate(const Displacement &displacement);
 void validate(Masking masking);
 void validate(const Scene &scene);
+
+// Throws InvalidArgument for another light: what is written for one direction takes no other.
+void require_directional(const Scene &scene);
 
 // As in cl/displacement.clh; Real is float, or double in the grade of that name (grade.h).
 template <typename Real = float>

@@ -122,6 +122,7 @@ std::string text_of(const std::vector<int> &orders) {
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
+    require_directional(scene);
     validate(options.grade, context);
     validate_widening(options);
     const auto [orders, choice] = widening_orders(context, material, scene, options);

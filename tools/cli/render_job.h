@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "flags.h"
+#include "geometric_flags.h"
 #include "renderings.h"
 
 namespace slopemix::cli {
 
-enum class Integrator { filtered, reference };
-constexpr Choice<Integrator> integrators[] = {{"filtered", Integrator::filtered}, {"reference", Integrator::reference}};
+enum class Integrator { filtered, reference, geometric };
+constexpr Choice<Integrator> integrators[] = {
+    {"filtered", Integrator::filtered}, {"reference", Integrator::reference}, {"geometric", Integrator::geometric}};
 
 struct RenderJob {
     std::string input, out;
@@ -19,9 +21,11 @@ struct RenderJob {
     std::pair<double, double> alpha, mean_slope;
     double rho = 0.0;
     double light_degrees = 0.0;
+    bool uniform_light = false; // in its place
     FitFlags fit;
     bool lobes_given = false, model_given = false;
     RenderFlags flags;
+    GeometricFlags geometric;
     bool errors = false;
     bool png = false;
     bool json = false;
@@ -29,7 +33,9 @@ struct RenderJob {
     smx_displacement displacement() const {
         return {alpha.first, alpha.second, rho, mean_slope.first, mean_slope.second};
     }
+    bool is_filtered() const { return integrator == Integrator::filtered; }
     bool is_reference() const { return integrator == Integrator::reference; }
+    bool is_geometric() const { return integrator == Integrator::geometric; }
     // Too large to be held in memory, and not needed there.
     bool is_streamed() const {
         return !png && std::uint64_t{flags.resolution.width} * flags.resolution.height > 2048u * 2048u;

@@ -17,36 +17,51 @@ double per_sample(const smx_render_report &report) {
     return seconds_per_sample(report.seconds, report.build_seconds, report.evaluations);
 }
 
-// The grid has no estimate of its error.
+// The grid has no estimate of its error, nor has one realisation.
 bool has_error(const RenderJob &job, const smx_render_report &report) {
-    return job.is_reference() && report.standard_error >= 0.0;
+    return !job.is_filtered() && report.standard_error >= 0.0;
 }
 
 Json configuration(const RenderJob &job, const Rendered &rendered) {
     Json json = {{"input", job.input}, {"material", rendered.name}};
     json["integrator"] = word_for(job.integrator, integrators);
-    json["model"] = job.is_reference() ? Json() : Json(word_for(rendered.model, models));
-    json["lobes"] = job.is_reference() ? Json() : Json(rendered.lobes);
-    json["widening_order"] = job.is_reference() ? Json() : order_json(job.flags.widening_order);
+    json["model"] = job.is_filtered() ? Json(word_for(rendered.model, models)) : Json();
+    json["lobes"] = job.is_filtered() ? Json(rendered.lobes) : Json();
+    json["widening_order"] = job.is_filtered() ? order_json(job.flags.widening_order) : Json();
     json["widening_tolerance"] =
-        tolerance_json(job.flags.widening_tolerance, !job.is_reference() && job.flags.has_auto_order());
-    json["widening_orders"] = job.is_reference() ? Json() : Json(orders_of(rendered.rendering.report, rendered.lobes));
+        tolerance_json(job.flags.widening_tolerance, job.is_filtered() && job.flags.has_auto_order());
+    json["widening_orders"] = job.is_filtered() ? Json(orders_of(rendered.rendering.report, rendered.lobes)) : Json();
     json["alpha_x"] = job.alpha.first;
     json["alpha_y"] = job.alpha.second;
     json["rho"] = job.rho;
     json["mean_slope"] = {job.mean_slope.first, job.mean_slope.second};
-    json["light_phi_deg"] = job.light_degrees;
-    json["g"] = word_for(job.flags.masking, maskings);
-    json["grade"] = word_for(job.flags.grade, grades);
+    json["light_phi_deg"] = job.uniform_light ? Json() : Json(job.light_degrees);
+    json["g"] = job.is_geometric() ? Json() : Json(word_for(job.flags.masking, maskings));
+    json["grade"] = job.is_geometric() ? Json() : Json(word_for(job.flags.grade, grades));
+    json["tile"] = job.is_geometric() ? Json(job.geometric.tile) : Json();
+    json["realisations"] = job.is_geometric() ? Json(job.geometric.realisations) : Json();
+    json["bounces"] = job.is_geometric() ? Json(job.geometric.bounces) : Json();
     json["resolution"] = {job.flags.resolution.width, job.flags.resolution.height};
-    json["spp"] = job.is_reference() ? Json(rendered.rendering.report.spp) : Json();
+    json["spp"] = job.is_filtered() ? Json() : Json(rendered.rendering.report.spp);
     json["target_error"] = job.flags.target_error > 0.0 ? Json(job.flags.target_error) : Json();
     json["sampler"] = job.is_reference() ? Json(word_for(job.flags.sampler, samplers)) : Json();
-    json["seed"] = job.is_reference() ? Json(job.flags.seed) : Json();
-    json["lookup"] = job.is_reference() ? Json(word_for(job.flags.lookup, lookups)) : Json();
+    json["seed"] = job.is_filtered() ? Json() : Json(job.flags.seed);
+    json["lookup"] = job.is_filtered() ? Json() : Json(word_for(job.flags.lookup, lookups));
     json["device"] = rendered.device;
     json["devices"] = rendered.devices;
     return json;
+}
+
+std::string integrator_text(const RenderJob &job, const Rendered &rendered) {
+    if (job.is_filtered())
+        return std::string("filtered, ") + word_for(rendered.model, models) +
+               ", lobes: " + std::to_string(rendered.lobes);
+    std::string text = word_for(job.integrator, integrators);
+    text += ", samples per pixel: " + std::to_string(rendered.rendering.report.spp);
+    if (job.is_geometric())
+        text += ", realisations: " + std::to_string(job.geometric.realisations) +
+                ", bounces: " + std::to_string(job.geometric.bounces);
+    return text;
 }
 
 } // namespace
@@ -59,7 +74,7 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
     document["png"] = job.png ? Json(job.png_file().string()) : Json();
     document["exposure"] = job.png ? Json(rendered.exposure) : Json();
     document["standard_error"] = has_error(job, report) ? Json(report.standard_error) : Json();
-    document["unsettled"] = job.is_reference() ? Json() : Json(report.unsettled);
+    document["unsettled"] = job.is_filtered() ? Json(report.unsettled) : Json();
     document["seconds"] = report.seconds;
     document["kernel_seconds"] = report.kernel_seconds;
     document["build_seconds"] = report.build_seconds;
@@ -71,10 +86,8 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
 void print_text(const RenderJob &job, const Rendered &rendered) {
     const smx_render_report &report = rendered.rendering.report;
     Facts facts = {{"material", rendered.name}};
-    facts.emplace_back("integrator", job.is_reference() ? "reference, samples per pixel: " + std::to_string(report.spp)
-                                                        : std::string("filtered, ") + word_for(rendered.model, models) +
-                                                              ", lobes: " + std::to_string(rendered.lobes));
-    if (!job.is_reference()) {
+    facts.emplace_back("integrator", integrator_text(job, rendered));
+    if (job.is_filtered()) {
         std::string orders;
         for (int order : orders_of(report, rendered.lobes)) orders += ' ' + std::to_string(order);
         facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);

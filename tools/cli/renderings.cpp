@@ -49,6 +49,15 @@ Rendering render_reference(const Context &context, const Brdf &brdf, const smx_s
     return rendering(options, smx_render_reference, context.get(), brdf.get(), &scene);
 }
 
+Rendering render_geometric(const Context &context, const Brdf &brdf, const smx_scene &scene,
+                           const smx_render_options &options, const smx_geometric_options &geometric) {
+    const auto render = [&](smx_context c, smx_brdf b, const smx_scene *s, const smx_render_options *o,
+                            smx_image *image, smx_render_report *report) {
+        return smx_render_geometric(c, b, s, o, &geometric, image, report);
+    };
+    return rendering(options, render, context.get(), brdf.get(), &scene);
+}
+
 Rendering render_geometry(const Context &context, const smx_scene &scene, const smx_render_options &options) {
     return rendering(options, smx_render_geometry, context.get(), &scene);
 }

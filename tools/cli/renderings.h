@@ -1,4 +1,4 @@
-// The three integrators of the API, and their scene and options from the flags that render and sheet share.
+// The integrators of the API, and their scene and options from the flags that render and sheet share.
 #pragma once
 
 #include "flags.h"
@@ -18,6 +18,8 @@ Rendering render_filtered(const Context &context, const Material &material, cons
                           const smx_render_options &options);
 Rendering render_reference(const Context &context, const Brdf &brdf, const smx_scene &scene,
                            const smx_render_options &options);
+Rendering render_geometric(const Context &context, const Brdf &brdf, const smx_scene &scene,
+                           const smx_render_options &options, const smx_geometric_options &geometric);
 Rendering render_geometry(const Context &context, const smx_scene &scene, const smx_render_options &options);
 
 // Without the compilation of kernels, which is paid once; 0 where there was nothing to evaluate.

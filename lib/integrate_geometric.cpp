@@ -1,0 +1,109 @@
+#include "integrate_geometric.h"
+
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "error.h"
+#include "geometric_integral.h"
+#include "sampling_plan.h"
+#include "table_whole.h"
+
+namespace smx {
+
+namespace {
+
+void validate(const RenderOptions &o, const GeometricOptions &g) {
+    require(o.lookup == Lookup::Linear || o.lookup == Lookup::Nearest, "lookup is ", static_cast<int>(o.lookup),
+            "; it must be 0 or 1");
+    require(o.target_error == 0.0, "target_error is ", o.target_error, "; the geometric reference takes only 0");
+    require(std::has_single_bit(g.tile) && g.tile >= min_tile && g.tile <= max_tile, "tile is ", g.tile,
+            "; it must be a power of two, ", min_tile, "..", max_tile);
+    require(g.realisations >= 1 && g.realisations <= max_realisations, "realisations is ", g.realisations,
+            "; it must be 1..", max_realisations);
+    require(g.bounces <= max_bounces, "bounces is ", g.bounces, "; it must be 0..", max_bounces);
+    require(o.spp >= 1 && o.spp <= max_spp, "spp is ", o.spp, "; it must be 1..", max_spp);
+    require(o.spp % g.realisations == 0, "spp is ", o.spp, "; it must be a multiple of realisations, ", g.realisations);
+    require(!o.errors || g.realisations > 1, "errors need at least 2 realisations: one has no estimate of its error");
+}
+
+std::uint64_t largest_buffer(std::uint64_t side) { return side * side / 3 * 4 * sizeof(float); } // maxima
+std::uint64_t tile_bytes(std::uint64_t side) { return largest_buffer(side) + side * side * sizeof(float); }
+
+// The tile and what else is there at the time: half of the memory is left to that.
+void require_room(Context &context, std::uint32_t tile) {
+    for (const Context *device : context.devices()) {
+        const auto cl_device = device->queue().getInfo<CL_QUEUE_DEVICE>();
+        const std::uint64_t one = cl_device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(),
+                            all = cl_device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>() / 2;
+        std::uint32_t fits = max_tile;
+        while (largest_buffer(fits) > one || tile_bytes(fits) > all) fits /= 2;
+        require(tile <= fits, "tile is ", tile, "; it must be at most ", fits, " in the memory of ",
+                device->info().name, " (", all * 2 >> 20, " MiB, ", one >> 20, " MiB at a time)");
+    }
+}
+
+Attributes describe_geometric(const Brdf &brdf, const Scene &scene, const RenderOptions &o, const GeometricOptions &g) {
+    Attributes attributes = describe("geometric", scene);
+    attributes.erase("slopemix.g"); // there is no formula for masking
+    attributes["slopemix.brdf"] = brdf.name();
+    attributes["slopemix.brdf_sha256"] = brdf.sha256();
+    attributes["slopemix.spp"] = std::to_string(o.spp);
+    attributes["slopemix.seed"] = std::to_string(o.seed);
+    attributes["slopemix.lookup"] = o.lookup == Lookup::Nearest ? "nearest" : "linear";
+    attributes["slopemix.tile"] = std::to_string(g.tile);
+    attributes["slopemix.realisations"] = std::to_string(g.realisations);
+    attributes["slopemix.bounces"] = std::to_string(g.bounces);
+    attributes["slopemix.masking"] = g.masking ? "on" : "off";
+    attributes["slopemix.shadowing"] = g.shadowing ? "on" : "off";
+    return attributes;
+}
+
+} // namespace
+
+Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
+                             const RenderOptions &options, const GeometricOptions &geometric) {
+    validate(scene);
+    validate(options, geometric);
+    require_room(context, geometric.tile);
+    const Context::Lock lock(context);
+    const CallTimer timer(context);
+    const auto canvas = make_canvas(scene.width, scene.height, options.errors, options.exr_path);
+    report_progress(options, 0.0);
+
+    const std::vector<float> table = table_whole(brdf);
+    HeightFields fields(static_cast<std::uint32_t>(std::countr_zero(geometric.tile)), options.seed);
+    GeometricTask task;
+    task.scene = &scene;
+    task.options = geometric;
+    task.lookup = options.lookup;
+    task.samples = options.spp / geometric.realisations;
+    task.seed = options.seed;
+    task.table = &table;
+    task.fields = &fields;
+    task.tiling = options.tiling;
+    const std::vector<Lobe> proposal = task.has_paths() ? source(std::nullopt) : std::vector<Lobe>{};
+    task.proposal = &proposal;
+
+    RowErrors seen(scene.height);
+    Attributes attributes = describe_geometric(brdf, scene, options, geometric);
+    canvas->begin(attributes);
+    const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
+        const auto integral = std::make_shared<GeometricIntegral>(device, task, most_rows);
+        return [integral, &seen](const Tile &tile, const TileRows &to, const Step &step) {
+            return integral->integrate(tile, to, seen, step);
+        };
+    };
+    const double seconds = render_tiles(context, scene, options, *canvas, start);
+    const double standard_error = geometric.realisations > 1 ? seen.relative() : -1.0;
+    if (std::isnan(standard_error)) fail(Fault::Internal, "the geometric reference's standard error is no number");
+    if (standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(standard_error);
+    std::optional<Image> image = canvas->finish(attributes);
+    const std::uint64_t lit = scene.light == Light::Uniform ? sphere_pixels(scene) : lit_pixels(scene);
+    RenderReport report = timer.finish(context, seconds, lit * options.spp);
+    report.spp = options.spp;
+    report.standard_error = standard_error;
+    return {std::move(image), report};
+}
+
+} // namespace smx
