@@ -118,7 +118,7 @@ bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, cons
 using Values = std::vector<std::vector<double>>;
 
 void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &pairs,
-             const std::array<Values, 3> &values, const Settings &settings, std::size_t first, std::size_t step,
+             const std::vector<Values> &values, const Settings &settings, std::size_t first, std::size_t step,
              Results &results) {
     const Truths truths(c);
     const bool is_textbook = c.x.rho == 0.0 && c.x.mean_x == 0.0 && c.x.mean_y == 0.0;
@@ -145,7 +145,7 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
                 point.condition = HUGE_VAL;
             statistics.see(point, better);
         };
-        for (std::size_t g = 0; g < values.size(); ++g) {
+        for (std::size_t g = 0; g < values.size(); ++g) { // double only where the device has it
             const test::Promise &promise = test::promises[g];
             if (sign_is_open(c, pairs[k].wi, promise.epsilon) || sign_is_open(c, pairs[k].wo, promise.epsilon))
                 continue;
@@ -189,9 +189,8 @@ Results run(const Settings &settings) {
     for (std::size_t index = 0; static_cast<double>(index * pairs_per_case) < settings.points; ++index) {
         const HardCase c = test::hard_case(index);
         const std::vector<HardPair> pairs = test::hard_pairs(c, pairs_per_case, index);
-        std::array<Values, 3> values;
+        std::vector<Values> values(grades);
         for (std::size_t g = 0; g < grades; ++g) values[g] = probes[g].run(c, pairs);
-        if (grades < 3) values[2] = values[0];
         std::vector<std::thread> pool;
         for (std::size_t t = 0; t < threads; ++t)
             pool.emplace_back([&, t] { compare(index, c, pairs, values, settings, t, threads, parts[t]); });
