@@ -151,8 +151,8 @@ typedef struct smx_brdf_info {
     { sizeof(smx_brdf_info), "", "", "", 0, 0, 0, 0, 0, 0 }
 
 /* Opens a MERL `.binary` file, or a built-in analytic material: "builtin:two-layer" (a rough coloured body under a
- * sharp white gloss), "builtin:conductor" (one rough metal lobe), "builtin:mirror" (reflects all light, within 2e-3 of
- * the mirrored direction), or one by formula:
+ * sharp white gloss), "builtin:conductor" (one rough metal lobe), "builtin:mirror" (reflects all light, from
+ * facets within a few thousandths of a radian), or one by formula:
  *   "analytic:beckmann,alpha=A,f0=F", "analytic:ggx,alpha=A,f0=F", "analytic:blinn-phong,exponent=E,f0=F":
  *       f = (F + (1 - F)(1 - cos theta_d)^5) D G2 / (4 cos_i cos_o), height-correlated Smith, Schlick's Fresnel curve;
  *       A 1e-3..10, E 0..1e6; Blinn-Phong's D = (E + 2) / (2 pi) cos^E, its projected area integrated numerically
@@ -562,7 +562,7 @@ SMX_API smx_status smx_render_filtered(smx_context context, smx_material materia
                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
 
 /* The statistical reference: the measured table integrated over X's facets. The sampler mis fits the table's own
- * mixture on its first use. Same statuses, and NO_SOLUTION (a table that mis cannot fit). */
+ * mixture at the image's theta_d when it is first used there. Same statuses. */
 SMX_API smx_status smx_render_reference(smx_context context, smx_brdf brdf, const smx_scene *scene,
                                         const smx_render_options *options, smx_image *image, smx_render_report *report);
 
@@ -634,8 +634,10 @@ SMX_API const float *smx_image_pixels(smx_image image);
 
 /* Standard errors of a reference that was rendered with options.errors, or read from such a file: of R, G and B, and
  * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. They are those of a mean of
- * eight: an interval is Student's, of 7 degrees of freedom. One of 95 % held the converged value in 94 % of the trials
- * with 4096 samples (tests/test_coverage.cpp), and in 90 % with 256, where a pixel hangs on few bright samples. */
+ * eight scrambles, or of a geometric reference's realisations: an interval is Student's, of 7 degrees of freedom, or of
+ * one less than the realisations. One of 95 % of the statistical reference held the converged value in 94 % of the
+ * trials with 4096 samples (tests/test_coverage.cpp): what few samples carry is distributed less evenly than Student
+ * asks. */
 SMX_API const float *smx_image_errors(smx_image image);
 
 /* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered

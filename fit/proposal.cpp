@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "density_nodes.h"
 #include "em.h"
@@ -52,12 +53,12 @@ SlopeDensity density_about_wh(const Brdf &brdf, std::size_t first, std::size_t c
 
 const std::vector<Lobe> &Proposal::of_rows(std::size_t first, std::size_t count) {
     const std::lock_guard lock(mutex_);
-    const auto [at, is_new] = fitted_.try_emplace({first, count});
-    if (is_new) {
-        const SlopeDensity density = density_about_wh(*brdf_, first, count);
-        if (!density.mass.empty()) at->second = fit_em(density, lobe_count, em_tolerance, em_steps).lobes;
-    }
-    return at->second;
+    const std::pair rows(first, count);
+    if (const auto found = fitted_.find(rows); found != fitted_.end()) return found->second;
+    const SlopeDensity density = density_about_wh(*brdf_, first, count);
+    std::vector<Lobe> lobes;
+    if (!density.mass.empty()) lobes = fit_em(density, lobe_count, em_tolerance, em_steps).lobes;
+    return fitted_.emplace(rows, std::move(lobes)).first->second;
 }
 
 const std::vector<Lobe> &Proposal::lobes(double theta_d) {

@@ -35,6 +35,7 @@ std::string read_name(std::ifstream &in) {
 
 void expect_sound_exr_header(const std::string &path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
+    in.exceptions(std::ios::badbit); // a name that memory did not suffice for is not an empty one
     const std::streamoff length = in.tellg();
     in.seekg(0);
     if (read_number<std::uint32_t>(in) != magic) return;

@@ -123,7 +123,8 @@ std::array<HeightField, 2> make_height_fields(std::uint32_t log2_side, std::uint
 
 double facet_correlation(std::uint32_t log2_side) {
     const AxisSums sums = axis_sums(static_cast<std::int32_t>(1u << log2_side));
-    return sums.difference / sums.power;
+    // Of the slopes h(1,0) - h(0,0) and h(0,1) - h(0,0): covariance difference^2, variances 2 difference power.
+    return sums.difference / (2.0 * sums.power);
 }
 
 } // namespace smx

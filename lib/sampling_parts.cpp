@@ -35,7 +35,8 @@ std::vector<Part> sampling_parts(const SamplingPlan &plan, std::size_t items, st
     const std::uint32_t together = scrambles_per_vector(plan, lanes);
     // Several whole scrambles, or some of a scramble's blocks.
     const std::uint32_t scrambles = std::clamp(most / facets / together * together, together, plan.scrambles);
-    const std::uint32_t size = facets <= most ? facets : most / summation_block * summation_block;
+    const std::uint32_t blocks = std::max(most / summation_block, 1u);
+    const std::uint32_t size = facets <= most ? facets : blocks * summation_block;
     const std::size_t slots = round_up(size, lanes / together);
     std::vector<Part> parts;
     for (std::uint32_t scramble = 0; scramble < plan.scrambles; scramble += scrambles)

@@ -54,6 +54,18 @@ SharedContext *const shared_context = new SharedContext;
 
 smx_context context() { return shared_context->get(); }
 
+bool has_double() {
+    static const bool found = [] {
+        const Material material = make_material({{1.0, 0.1}});
+        const smx_scene scene = make_scene(1, 1, 0.0, {});
+        smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+        options.grade = SMX_GRADE_DOUBLE;
+        Image image;
+        return smx_render_filtered(context(), material, &scene, &options, image.out(), nullptr) == SMX_OK;
+    }();
+    return found;
+}
+
 Brdf make_brdf(const oracle::Table &table, const char *name) {
     Brdf b;
     EXPECT_SMX_OK(smx_brdf_create(name, static_cast<uint32_t>(table.phi_d), table.values.data(), b.out()));

@@ -59,6 +59,9 @@ using Image = Handle<smx_image, smx_image_release>;
 // One context for a test executable: PoCL on the CPU, kernels kept between tests. Null, with a failure, without one.
 smx_context context();
 
+// Whether its device has the grade double.
+bool has_double();
+
 Brdf make_brdf(const oracle::Table &table, const char *name = "test");
 
 // The library's table with its holes filled, for the oracle's lookups.

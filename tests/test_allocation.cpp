@@ -98,7 +98,8 @@ void expect_out_of_memory(const char *what, long all, const Call &call, bool is_
             }
             const bool is_told =
                 status == SMX_OUT_OF_MEMORY || (is_openexr && (status == SMX_CANNOT_WRITE || status == SMX_BAD_FORMAT));
-            EXPECT_TRUE(is_told) << what << ", allocation " << n << " on " << on << ": " << smx_last_error();
+            EXPECT_TRUE(is_told) << what << ", allocation " << n << " on " << on << ", status " << status << ": "
+                                 << smx_last_error();
             if (testing::Test::HasFailure()) return;
         }
 }

@@ -15,18 +15,6 @@ double precise_bound(double least_alpha) { return least_alpha >= 0.01 ? 1e-5 : 1
 // Errors of elementary functions of 1e-4, a few of them in a row.
 constexpr double fast_bound = 1e-3;
 
-bool has_double() {
-    static const bool found = [] {
-        const test::Material material = test::make_material({{1.0, 0.1}});
-        const smx_scene scene = test::make_scene(1, 1, 0.0, {});
-        smx_render_options options = SMX_RENDER_OPTIONS_INIT;
-        options.grade = SMX_GRADE_DOUBLE;
-        test::Image image;
-        return smx_render_filtered(test::context(), material, &scene, &options, image.out(), nullptr) == SMX_OK;
-    }();
-    return found;
-}
-
 test::Image filtered(smx_material material, const smx_scene &scene, smx_grade grade) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
     options.grade = grade;
@@ -77,7 +65,7 @@ bool same_bits(smx_image a, smx_image b) {
 } // namespace
 
 TEST(Grades, FilteredImagesAgree) {
-    if (!has_double()) GTEST_SKIP() << "the device has no doubles";
+    if (!test::has_double()) GTEST_SKIP() << "the device has no doubles";
     for (const Base &base : bases())
         for (const smx_displacement &x : displacements)
             for (const double light : {90.0, 0.0, -25.0})
@@ -95,7 +83,7 @@ TEST(Grades, FilteredImagesAgree) {
 }
 
 TEST(Grades, ReferencesAgree) {
-    if (!has_double()) GTEST_SKIP() << "the device has no doubles";
+    if (!test::has_double()) GTEST_SKIP() << "the device has no doubles";
     const test::Brdf brdf =
         test::make_brdf(test::beckmann_table({{0.6, 0.1}, {0.4, 0.5}}, oracle::Masking::correlated));
     for (const smx_sampler sampler : {SMX_SAMPLER_GRID, SMX_SAMPLER_SOBOL, SMX_SAMPLER_MIS})

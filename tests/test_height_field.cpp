@@ -107,6 +107,13 @@ TEST(HeightField, FacetsHaveTheSlopesOfX) {
     }
 }
 
+// From the heights' correlation exp(-x^2 / (2 L^2)): that of h(1,0) - h(0,0) and h(0,1) - h(0,0).
+TEST(HeightField, SlopesOfAFacetAreCorrelatedAsTheSpectrumSays) {
+    const double next = std::exp(-0.5 / (smx::correlation_length * smx::correlation_length));
+    const double covariance = (1.0 - next) * (1.0 - next), variance = 2.0 * (1.0 - next);
+    EXPECT_NEAR(smx::facet_correlation(10), covariance / variance, 1e-9);
+}
+
 // Slopes that are lines stay lines: nothing along x where X has no roughness there.
 TEST(HeightField, NoRoughnessIsNone) {
     visit_facets(ensemble()[0], {0.0, 0.5, 0.0, 0.25, 0.0}, [](double sx, double) { ASSERT_NEAR(sx, 0.25, 1e-6); });

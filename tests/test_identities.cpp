@@ -8,6 +8,7 @@
 #include "close.h"
 #include "context.h"
 #include "device_buffer.h"
+#include "device_lobe.h"
 #include "random.h"
 #include "scene.h"
 #include "slope_grid.h"
@@ -68,21 +69,11 @@ smx::Context &device() {
     return c;
 }
 
-// As in cl/mixture.clh.
-struct DeviceLobe {
-    float weight, alpha2, exponent_1, exponent_2, peak;
-};
-
-std::vector<DeviceLobe> device_lobes(const Surface &s, const smx::Displacement &x) {
-    const smx::PrincipalAxes axes = smx::principal_axes(x);
-    std::vector<DeviceLobe> lobes;
-    for (const oracle::Lobe &l : s.lobes) {
-        const double a2 = l.alpha * l.alpha, var_1 = a2 + axes.var_1, var_2 = a2 + axes.var_2;
-        const double log2_e = 1.0 / std::log(2.0), peak = l.weight / (oracle::pi * std::sqrt(var_1 * var_2));
-        lobes.push_back({static_cast<float>(l.weight), static_cast<float>(a2), static_cast<float>(-log2_e / var_1),
-                         static_cast<float>(-log2_e / var_2), static_cast<float>(peak)});
-    }
-    return lobes;
+smx::Material material_of(const Surface &s) {
+    smx::Material material;
+    material.model = smx::Model::Shared;
+    for (const oracle::Lobe &l : s.lobes) material.lobes.push_back({l.weight, l.alpha});
+    return material;
 }
 
 // D of normals and sigma towards directions, [count] each.
@@ -99,13 +90,8 @@ __kernel void probe(__global float *d, __global float *sigma, int stride, __glob
     realW kx = load_floatsW(0, k + at), ky = load_floatsW(0, k + stride + at), kz = load_floatsW(0, k + 2 * stride + at);
     Tilted h = tilted(&x, kx, ky, kz);
     Slanted w = slanted(&x, kx, ky, mean_plane(&x, kx, ky, kz));
-    realW p22 = (realW)0.0f, area = (realW)0.0f;
-    for (int j = 0; j < count; ++j) {
-        p22 += lobes[j].peak * lobe_shape(lobes + j, &h);
-        area += lobes[j].weight * lobe_sigma(lobes[j].alpha2, &w);
-    }
-    store_floatsW(p22 * h.inv_cos4, 0, d + at);
-    store_floatsW(area, 0, sigma + at);
+    store_floatsW(mixture_ndf(lobes, count, &h), 0, d + at);
+    store_floatsW(mixture_sigma(lobes, count, &w), 0, sigma + at);
 })";
         cl::Program made(device().cl(), source);
         made.build(smx::build_options({{"W", static_cast<int>(device().width())}}).c_str());
@@ -119,7 +105,8 @@ __kernel void probe(__global float *d, __global float *sigma, int stride, __glob
         planes[2 * stride + k] = static_cast<float>(at[k].z);
     }
     const smx::Displacement x{s.x.alpha_x, s.x.alpha_y, s.x.rho, s.x.mean_slope_x, s.x.mean_slope_y};
-    const cl::Buffer lobes = smx::buffer_from(device(), device_lobes(s, x)), in = smx::buffer_from(device(), planes);
+    const cl::Buffer lobes = smx::buffer_from(device(), smx::widened_lobes<float>(material_of(s), x)),
+                     in = smx::buffer_from(device(), planes);
     const cl::Buffer d = smx::empty_buffer<float>(device(), stride), sigma = smx::empty_buffer<float>(device(), stride);
     cl::Kernel kernel(program, "probe");
     kernel.setArg(0, d);

@@ -156,11 +156,7 @@ std::vector<Lobes> proposals() {
 }
 
 Facets draw_about_z(const Lobes &lobes, cl_uint seed) {
-    std::vector<cl_float2> cumulated;
-    double sum = 0.0;
-    for (const smx::Lobe &lobe : lobes)
-        cumulated.push_back({{static_cast<float>(sum += lobe.weight), static_cast<float>(lobe.alpha)}});
-    const cl::Buffer lobe_buffer = smx::buffer_from(context(), cumulated);
+    const cl::Buffer lobe_buffer = smx::buffer_from(context(), smx::cumulated(lobes));
     const cl::Buffer density = smx::buffer_from(context(), smx::proposal_table(lobes));
     return draw("draw_about_z", seed, [&](cl::Kernel &kernel) {
         kernel.setArg(4, lobe_buffer);
@@ -223,25 +219,20 @@ TEST(Samplers, UniformNumbersAreOpen) {
 }
 
 TEST(Samplers, QuantileHasItsStatedError) {
-    struct Band {
-        double low, high, error;
-    };
+    constexpr double low = 0x1p-48, high = 0.5, stated = 9e-7;
     test::Random random(3);
-    for (const auto &[low, high, stated] :
-         {Band{0x1p-25, 0.5, 3e-7}, Band{0x1p-28, 0x1p-25, 1.4e-5}, Band{0x1p-48, 0x1p-28, 0.04}}) {
-        std::vector<Three> in;
-        std::vector<float> q{static_cast<float>(low), static_cast<float>(high)};
-        for (int k = 0; k < 50000; ++k) q.push_back(static_cast<float>(random.log_uniform(low, high)));
-        for (const float value : q) in.push_back({std::bit_cast<cl_uint>(value), 0u, 0u});
-        const auto t = probe("(float2)(slope_quantile(as_float(a)))", in);
-        double largest = 0.0;
-        for (std::size_t k = 0; k < q.size(); ++k) {
-            const double wanted = -boost::math::erfc_inv(2.0 * q[k]);
-            largest = std::max(largest, wanted == 0.0 ? std::abs(t[k][0]) : std::abs(t[k][0] / wanted - 1.0));
-        }
-        EXPECT_LE(largest, stated) << "from " << low;
-        EXPECT_GT(largest, stated / 3.0) << "from " << low;
+    std::vector<Three> in;
+    std::vector<float> q{static_cast<float>(low), static_cast<float>(high)};
+    for (int k = 0; k < 100000; ++k) q.push_back(static_cast<float>(random.log_uniform(low, high)));
+    for (const float value : q) in.push_back({std::bit_cast<cl_uint>(value), 0u, 0u});
+    const auto t = probe("(float2)(slope_quantile(as_float(a)))", in);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < q.size(); ++k) {
+        const double wanted = -boost::math::erfc_inv(2.0 * q[k]);
+        largest = std::max(largest, wanted == 0.0 ? std::abs(t[k][0]) : std::abs(t[k][0] / wanted - 1.0));
     }
+    EXPECT_LE(largest, stated);
+    EXPECT_GT(largest, stated / 2.0);
 }
 
 // At the ends of the unit interval, and in the middle, for every number of strata: finite, the quantile, antisymmetric.
@@ -258,7 +249,7 @@ TEST(Samplers, SlopesAtTheEndsOfTheirStrata) {
                 const double wanted =
                     below < 0.5 ? -boost::math::erfc_inv(2.0 * below) : boost::math::erfc_inv(2.0 * above);
                 // A stratum is told to 2^-24 of its distance from the end; the quantile's error is its own.
-                EXPECT_CLOSE(there, wanted, 0.04, 2e-7) << whole << " of " << strata << " + " << fraction;
+                EXPECT_CLOSE(there, wanted, 2e-6, 2e-7) << whole << " of " << strata << " + " << fraction;
             }
         }
 }

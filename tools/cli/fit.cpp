@@ -18,6 +18,7 @@
 #include "fit_worker.h"
 #include "folder_lock.h"
 #include "output.h"
+#include "plot.h"
 #include "progress.h"
 #include "workers.h"
 
@@ -114,6 +115,7 @@ void run(const FitJob &job) {
     if (job.out.empty()) throw CLI::RequiredError("--out");
     refuse_equal_names(job);
     for (const std::string &input : job.inputs) fit_flags_for(input, job.fit); // wrong usage is found before any work
+    if (job.plot) require_gnuplot();
     require_writable_outputs(job);
     const FolderLock lock(job.out); // the table of fits is one run's at a time
     remove_leftovers(files_of(job));

@@ -29,9 +29,7 @@ bool is_stale(const fs::path &plot, const fs::path &material) {
 } // namespace
 
 FitWorker::FitWorker(const FitJob &job, const FitTable &earlier) : job_(job), earlier_(earlier) {
-    if (!job.plot) return;
-    require_gnuplot();
-    context_ = open_context({});
+    if (job.plot) context_ = open_context({});
 }
 
 std::optional<double> FitWorker::build_seconds() const {

@@ -11,7 +11,7 @@ namespace slopemix::cli {
 
 class FitWorker {
   public:
-    // `earlier` holds the rows of earlier runs. Throws CommandError if pictures are asked for and cannot be made.
+    // `earlier` holds the rows of earlier runs.
     FitWorker(const FitJob &job, const FitTable &earlier);
 
     // Writes the material's file, unless it is up to date, and its picture. What fails is told in the outcome; throws
