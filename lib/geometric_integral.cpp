@@ -42,7 +42,7 @@ GeometricIntegral::GeometricIntegral(Context &device, const GeometricTask &task,
 }
 
 void GeometricIntegral::begin(std::uint32_t realisation) {
-    heights_ = maxima_ = cl::Buffer(); // the last realisation's go before the next one's come: there is room for one tile
+    heights_ = maxima_ = cl::Buffer(); // the last one goes before the next one is drawn: there is room for one tile
     const std::shared_ptr<const HeightField> field = task_.fields->get(realisation);
     heights_ = buffer_from(device_, field->heights);
     maxima_ = buffer_from(device_, field->maxima);
