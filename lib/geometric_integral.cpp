@@ -41,10 +41,12 @@ GeometricIntegral::GeometricIntegral(Context &device, const GeometricTask &task,
     kernel_.setArg(9, static_cast<cl_int>(task.options.bounces));
 }
 
-void GeometricIntegral::begin(const HeightField &field, std::uint32_t realisation) {
-    heights_ = buffer_from(device_, field.heights);
-    maxima_ = buffer_from(device_, field.maxima);
-    kernel_.setArg(3, tile_frame(field, task_.scene->displacement));
+void GeometricIntegral::begin(std::uint32_t realisation) {
+    heights_ = maxima_ = cl::Buffer(); // the last one goes before the next one is drawn: there is room for one tile
+    const std::shared_ptr<const HeightField> field = task_.fields->get(realisation);
+    heights_ = buffer_from(device_, field->heights);
+    maxima_ = buffer_from(device_, field->maxima);
+    kernel_.setArg(3, tile_frame(*field, task_.scene->displacement));
     kernel_.setArg(4, heights_);
     kernel_.setArg(5, maxima_);
     kernel_.setArg(10, static_cast<cl_uint>(pass_seed(task_.seed, realisation, 0)));
@@ -94,7 +96,7 @@ double GeometricIntegral::integrate(const Tile &tile, const TileRows &to, RowErr
     const std::uint32_t width = task_.scene->width, realisations = task_.options.realisations;
     const std::size_t pixels = std::size_t{tile.rows} * width;
     for (std::uint32_t r = 0; r < realisations; ++r) {
-        begin(*task_.fields->get(r), r);
+        begin(r);
         for (std::uint32_t first = 0; first < task_.samples; first += launch_samples) {
             add_samples(tile, first);
             const double drawn = std::min<double>(first + double{launch_samples}, task_.samples);

@@ -38,7 +38,7 @@ class GeometricIntegral {
         std::array<double, 3> mean, deviations;
     };
 
-    void begin(const HeightField &field, std::uint32_t realisation);
+    void begin(std::uint32_t realisation);
     void add_samples(const Tile &tile, std::uint32_t first);
     void fold(std::size_t pixels, std::uint32_t realisation);
     void write(std::size_t pixels, float *rgba, float *errors) const;

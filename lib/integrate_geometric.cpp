@@ -30,7 +30,8 @@ void validate(const RenderOptions &o, const GeometricOptions &g) {
 std::uint64_t largest_buffer(std::uint64_t side) { return side * side / 3 * 4 * sizeof(float); } // maxima
 std::uint64_t tile_bytes(std::uint64_t side) { return largest_buffer(side) + side * side * sizeof(float); }
 
-// The tile and what else is there at the time: half of the memory is left to that.
+// Counts the one tile that a device holds at a time, heights and maxima. The other half of its memory is left to what
+// is not counted: table and pixels, and, where the device is the host, two fields as they are drawn, with their maxima.
 void require_room(Context &context, std::uint32_t tile) {
     for (const Context *device : context.devices()) {
         const auto cl_device = device->queue().getInfo<CL_QUEUE_DEVICE>();

@@ -27,8 +27,8 @@ std::ostream &operator<<(std::ostream &out, const HardPoint &p) {
 }
 
 double HardStatistics::error_ratio(const HardPoint &p) const {
-    const double error = std::abs(p.got / p.wanted - 1.0);
-    return error / (promise_.factor * (1.0 + p.condition));
+    const double ratio = std::abs(p.got / p.wanted - 1.0) / (promise_.factor * (1.0 + p.condition));
+    return std::isfinite(p.condition) && !std::isnan(ratio) ? ratio : std::numeric_limits<double>::infinity();
 }
 
 bool HardStatistics::is_wrong(const HardPoint &p) const {
@@ -43,7 +43,7 @@ void HardStatistics::count(HardPoint p) {
     if (!std::isfinite(p.got)) return ++c.not_finite, keep(p);
     if (p.got < 0.0) return ++c.negative, keep(p);
     if (p.wanted < smallest_float && !is_wrong(p)) return ++c.within[0], void(); // or 0: no relative error is asked for
-    const bool undetermined = promise_.factor * (1.0 + p.condition) >= 1.0;
+    const bool undetermined = p.is_open || (std::isfinite(p.condition) && promise_.factor * (1.0 + p.condition) >= 1.0);
     c.undetermined += undetermined;
     if (undetermined) return;
     if (p.wanted < smallest_float) return ++c.wrong, keep(p);

@@ -31,13 +31,14 @@ struct HardPoint {
     std::size_t quantity = 0, index = 0;
     HardPair pair{};
     double got = 0.0, wanted = 0.0, condition = 0.0;
+    bool is_open = false; // nothing is determined, whatever the condition
 };
 std::ostream &operator<<(std::ostream &out, const HardPoint &point);
 
 struct QuantityCounts {
     std::size_t points = 0;
     std::size_t not_finite = 0, negative = 0, zero = 0; // zero: where the truth is a normal float
-    std::size_t wrong = 0;                              // error above what is allowed
+    std::size_t wrong = 0;                              // error above what is allowed, or no number
     std::size_t undetermined = 0;        // of `points`: more than 1 is allowed, so that only the above could fail
     std::array<std::size_t, 4> within{}; // error at most 1/64, 1/16, 1/4, 1 of what is allowed
     double largest = 0.0;                // error over what is allowed
@@ -68,8 +69,9 @@ class HardStatistics {
   private:
     // Not where nothing is determined, and not below a normal float, where no relative error is asked for.
     bool is_told_by_error(const HardPoint &point) const {
-        return point.wanted >= 0x1p-126 && promise_.factor * (1.0 + point.condition) < 1.0;
+        return !point.is_open && point.wanted >= 0x1p-126 && promise_.factor * (1.0 + point.condition) < 1.0;
     }
+    // Infinity where a condition that is not finite, or a NaN, would say nothing.
     double error_ratio(const HardPoint &point) const;
     void count(HardPoint point);
     void keep(const HardPoint &point);

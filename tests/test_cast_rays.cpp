@@ -1,6 +1,8 @@
 // The ray caster against a plain one in double on the same tile, and the tile's statistics as its facets have them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cast_rays.h"
 #include "oracle_rays.h"
 #include "random.h"
@@ -80,7 +82,34 @@ Differences compare(const smx::Displacement &x, std::size_t count, std::uint64_t
     return d;
 }
 
+// Share of the rays that are given up (MOST_STEPS), where a ray goes `flatness` as far across the tile as it falls; all
+// along one axis, where the tile comes back after its side, or in all directions.
+double share_given_up(double flatness, bool is_along_axis) {
+    constexpr std::size_t count = 2000;
+    test::Random random(3);
+    std::vector<smx::RayPair> rays(count);
+    for (smx::RayPair &r : rays) {
+        r = random_ray(random);
+        const double phi = is_along_axis ? 0.0 : random.uniform(0.0, 2 * oracle::pi);
+        r.wo = {static_cast<float>(std::cos(phi)), static_cast<float>(std::sin(phi)),
+                static_cast<float>(1.0 / flatness)};
+    }
+    const std::vector<smx::CastRay> cast = smx::cast_rays(context(), field(), {1.0, 1.0, 0.0, 0.0, 0.0}, rays);
+    const auto given_up = std::count_if(cast.begin(), cast.end(), [](const smx::CastRay &r) { return r.upper == -1; });
+    return static_cast<double>(given_up) / count;
+}
+
 } // namespace
+
+// What comes from above meets the surface at last. Ever flatter rays are given up, few of them.
+TEST(CastRays, FlatRaysMeetTheSurface) {
+    for (const bool is_along_axis : {false, true}) {
+        for (const double flatness : {1e3, 1e4, 1e5})
+            EXPECT_EQ(share_given_up(flatness, is_along_axis), 0.0) << flatness << ", along an axis: " << is_along_axis;
+        EXPECT_LT(share_given_up(1e7, is_along_axis), 0.01) << "along an axis: " << is_along_axis;
+    }
+    EXPECT_GT(share_given_up(1e7, false), 0.0); // so that the limit is seen at all
+}
 
 TEST(CastRays, AgreeWithAPlainCasterInDouble) {
     constexpr std::size_t count = 250000;

@@ -21,6 +21,7 @@ namespace {
 using namespace smx;
 
 constexpr std::size_t nodes = DensityNodes::count;
+constexpr std::size_t cells = std::size_t{90} * 90 * 180; // of a table's channel
 
 // A step of EM may lose roundings, and lobes of less than 1e-14 of the mass.
 constexpr double allowed_fall = 1e-12;
@@ -123,6 +124,29 @@ std::vector<Lobe> mixture_of(smx_material material) {
     return lobes;
 }
 
+// A sound material from a table of `value` in these cells and 0 in the others; only of 1 must there be one.
+void expect_sound_or_no_solution(std::size_t first, std::size_t count, double value, smx_model model) {
+    std::vector<double> values(3 * cells);
+    for (std::size_t c = 0; c < 3; ++c)
+        std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(c * cells + first), count, value);
+    test::Brdf brdf;
+    ASSERT_SMX_OK(smx_brdf_create("spot", 180, values.data(), brdf.out()));
+    test::Density density;
+    smx_status status = smx_density_create(brdf, nullptr, density.out());
+    test::Material material;
+    smx_fit_options options = SMX_FIT_OPTIONS_INIT;
+    options.model = model;
+    options.lobes = 3;
+    if (status == SMX_OK) status = smx_material_fit(density, &options, material.out());
+    if (status != SMX_OK) {
+        EXPECT_EQ(status, SMX_NO_SOLUTION) << smx_last_error();
+        EXPECT_NE(value, 1.0) << smx_last_error();
+        return;
+    }
+    expect_mixture(mixture_of(material), 3);
+    for (const double f : test::curves_of(material).fresnel) EXPECT_TRUE(std::isfinite(f) && f >= 0.0) << f;
+}
+
 } // namespace
 
 TEST(FitHard, LikelihoodNeverFalls) {
@@ -185,7 +209,6 @@ TEST(FitHard, OrderOfTheStartDoesNotMatter) {
 
 TEST(FitHard, OrderOfTheChannelsDoesNotMatter) {
     const std::vector<double> values = table_values("builtin:two-layer");
-    const std::size_t cells = values.size() / 3;
     std::vector<double> turned(values.begin() + static_cast<std::ptrdiff_t>(cells), values.end());
     turned.insert(turned.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(cells));
     for (const smx_model model : {SMX_MODEL_SHARED, SMX_MODEL_PER_LOBE}) {
@@ -252,7 +275,7 @@ TEST(FitHard, WhatHasNoAnswerIsAnError) {
     EXPECT_THROW(fit_em(massless, 4, 1e-6, 100), Error);
 
     // Light that never comes back where it came from, though it is reflected elsewhere.
-    std::vector<double> values(std::size_t{3} * 90 * 90 * 180, 1.0);
+    std::vector<double> values(3 * cells, 1.0);
     for (std::size_t at = 0; at < values.size(); ++at)
         if (at / 180 % 90 == 0) values[at] = 0.0;
     test::Brdf brdf;
@@ -263,7 +286,6 @@ TEST(FitHard, WhatHasNoAnswerIsAnError) {
 // All of a table in one row of theta_h, or one cell, whatever its unit: a sound material, or an error that says why;
 // and nothing printed, by the solver neither.
 TEST(FitHard, TablesOfOneRowOrCell) {
-    constexpr std::size_t cells = std::size_t{90} * 90 * 180;
     struct Spot {
         std::size_t first, count; // cells
     };
@@ -273,25 +295,7 @@ TEST(FitHard, TablesOfOneRowOrCell) {
             for (const smx_model model : {SMX_MODEL_SHARED, SMX_MODEL_PER_LOBE}) {
                 SCOPED_TRACE("cells from " + std::to_string(first) + ", " + std::to_string(count) + ", value " +
                              std::to_string(std::log10(value)) + ", model " + std::to_string(model));
-                std::vector<double> values(3 * cells);
-                for (std::size_t c = 0; c < 3; ++c)
-                    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(c * cells + first), count, value);
-                test::Brdf brdf;
-                ASSERT_SMX_OK(smx_brdf_create("spot", 180, values.data(), brdf.out()));
-                test::Density density;
-                smx_status status = smx_density_create(brdf, nullptr, density.out());
-                test::Material material;
-                smx_fit_options options = SMX_FIT_OPTIONS_INIT;
-                options.model = model;
-                options.lobes = 3;
-                if (status == SMX_OK) status = smx_material_fit(density, &options, material.out());
-                if (status != SMX_OK) {
-                    EXPECT_EQ(status, SMX_NO_SOLUTION) << smx_last_error();
-                    EXPECT_NE(value, 1.0) << smx_last_error();
-                    continue;
-                }
-                expect_mixture(mixture_of(material), 3);
-                for (const double f : test::curves_of(material).fresnel) EXPECT_TRUE(std::isfinite(f) && f >= 0.0) << f;
+                expect_sound_or_no_solution(first, count, value, model);
             }
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }

@@ -140,9 +140,8 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
                        wanted = wide[q] > 0.0L ? std::max(rounded, 0x1p-1074) : rounded;
             if (wanted == test::no_value) return;
             HardPoint point{0.0, q, index, pairs[k], got, wanted, wanted == 0.0 ? 0.0 : dual[q].condition()};
-            if (statistics.is_wrong(point) &&
-                is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]))
-                point.condition = HUGE_VAL;
+            point.is_open = statistics.is_wrong(point) &&
+                            is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]);
             statistics.see(point, better);
         };
         for (std::size_t g = 0; g < values.size(); ++g) { // double only where the device has it

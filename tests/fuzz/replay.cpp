@@ -32,6 +32,7 @@ constexpr int seconds_per_input = 1;
 constexpr long memory = 1L << 20; // kB; a table over the full azimuth takes 0.4 GB while it is read
 #endif
 constexpr std::size_t longest_input = 1 << 16;
+constexpr std::size_t fewest_changes = 8; // also where seeds took all the time
 
 std::string crash_file;
 std::string current;
@@ -124,7 +125,7 @@ std::size_t run_cuts(const std::vector<std::string> &seeds, auto has_time) {
 std::size_t run_changes(const std::vector<std::string> &seeds, auto has_time) {
     test::Random random(47);
     std::size_t runs = 0;
-    for (; has_time(); ++runs) {
+    for (; runs < fewest_changes || has_time(); ++runs) {
         std::string input = seeds[runs % seeds.size()];
         for (std::size_t changes = 1 + random.below(4); changes > 0; --changes) input = changed(input, seeds, random);
         run(input.substr(0, longest_input));
@@ -149,5 +150,5 @@ int main(int argc, char **argv) {
     const std::size_t cuts = run_cuts(seeds, [&] { return elapsed() < limit / 2; });
     const std::size_t changes = run_changes(seeds, [&] { return elapsed() < limit; });
     std::printf("%zu seeds, %zu cuts, %zu changes\n", seeds.size(), cuts, changes);
-    return changes > 0 ? 0 : 1;
+    return 0;
 }
