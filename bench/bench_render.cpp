@@ -65,7 +65,7 @@ void geometric(benchmark::State &state, uint32_t bounces) {
         return smx_render_geometric(shared_context(), two_layer(), &scene, &options, &how, image, report);
     });
 }
-BENCHMARK_CAPTURE(geometric, single, 0)->Name("geometric.single")->UseManualTime();
+BENCHMARK_CAPTURE(geometric, single, 0)->Name("geometric.path")->UseManualTime();
 BENCHMARK_CAPTURE(geometric, bounce, 1)->Name("geometric.bounce")->UseManualTime();
 
 // Pairs of directions, all with another theta_d.
