@@ -41,10 +41,36 @@ std::string options_text(const FitFlags &flags) {
            (flags.lobes == SMX_LOBES_AUTO ? "auto" : std::to_string(flags.lobes));
 }
 
-void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
+namespace {
+
+void add_resolution_flag(CLI::App &command, RenderFlags &flags) {
     add_parsed(command, "--res", flags.resolution, parse_resolution,
                "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
         ->type_name("W[xH]");
+}
+
+void add_masking_flag(CLI::App &command, RenderFlags &flags) {
+    add_choice(command, "--g", flags.masking, maskings,
+               "Masking and shadowing, height-correlated or separable (default correlated)");
+}
+
+void add_device_flag(CLI::App &command, RenderFlags &flags) {
+    command
+        .add_option("--device", flags.device,
+                    "OpenCL device: its number in `slopemix info`, or part of its name; several work together")
+        ->type_name("D[,D...]");
+}
+
+} // namespace
+
+void add_view_flags(CLI::App &command, RenderFlags &flags) {
+    add_resolution_flag(command, flags);
+    add_masking_flag(command, flags);
+    add_device_flag(command, flags);
+}
+
+void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
+    add_resolution_flag(command, flags);
     const auto parse_spp = [](const std::string &text) {
         return static_cast<std::uint32_t>(parse_count(text, spp_range));
     };
@@ -63,10 +89,7 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
         ->type_name("E");
     const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
     add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
-    command
-        .add_option("--device", flags.device,
-                    "OpenCL device: its number in `slopemix info`, or part of its name; several work together")
-        ->type_name("D[,D...]");
+    add_device_flag(command, flags);
     const auto parse_parts = [](const std::string &text) {
         return static_cast<std::uint32_t>(parse_count(text, sub_devices_range));
     };
@@ -83,8 +106,7 @@ void add_grade_flag(CLI::App &command, RenderFlags &flags) {
 void add_render_flags(CLI::App &command, RenderFlags &flags) {
     add_sampling_flags(command, flags);
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
-    add_choice(command, "--g", flags.masking, maskings,
-               "Masking and shadowing, height-correlated or separable (default correlated)");
+    add_masking_flag(command, flags);
     add_grade_flag(command, flags);
 }
 
