@@ -29,7 +29,7 @@ void fill(smx_render_report *report, const RenderReport &r) {
                {},
                r.unsettled,
                r.effects,
-               static_cast<uint32_t>(r.lobes)};
+               static_cast<uint32_t>(r.lobes), r.interreflection};
     for (std::size_t k = 0; k < r.orders.size(); ++k)
         report->widening_orders[k] = static_cast<std::uint8_t>(r.orders[k]);
 }

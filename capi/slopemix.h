@@ -553,8 +553,10 @@ typedef struct smx_render_options {
                                   interreflection; the reference all but that, fresnel and lobe-color, which are the
                                   table's; the geometric reference masking, shadowing, anisotropy, mean-slope and, with
                                   bounces, interreflection. A set with another is INVALID_ARGUMENT; so is
-                                  height-correlation with SMX_G2_SEPARABLE. Auto leaves out of filtered images alone, as
-                                  smx_material_effects says; it is all where there is no image (smx_material_eval) */
+                                  height-correlation with SMX_G2_SEPARABLE. Auto leaves out of filtered images what
+                                  smx_material_effects says, and of the geometric reference interreflection alone;
+                                  for the statistical one, and where there is no image (smx_material_eval), it is all
+                                */
     double effect_tolerance;   /* of SMX_EFFECTS_AUTO: relRMSE of the image without all that is left out, 0 <= it < 1 */
 } smx_render_options;
 #define SMX_RENDER_OPTIONS_INIT                                                                                \
@@ -577,9 +579,12 @@ typedef struct smx_render_report {
                          whose last still promised more than 0.01 of the integrand's logarithm */
     uint32_t effects; /* simulated: a set. 0 of smx_render_geometry */
     uint32_t lobes;   /* of a filtered image: lobes that were shaded, all but those that auto left out; else 0 */
+    double interreflection; /* of smx_render_geometric with SMX_EFFECTS_AUTO and bounces: relRMSE of the image without
+                               interreflection, from a pilot, which is left out up to effect_tolerance. Negative: not
+                               judged */
 } smx_render_report;
 #define SMX_RENDER_REPORT_INIT \
-    { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0, {0}, 0.0, 0, 0 }
+    { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0, {0}, 0.0, 0, 0, 0.0 }
 
 typedef struct smx_image_s *smx_image;
 

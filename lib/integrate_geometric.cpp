@@ -1,5 +1,6 @@
 #include "integrate_geometric.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -72,13 +73,40 @@ Effects geometric_effects_of(const RenderOptions &options, std::uint32_t bounces
     return bounces > 0 ? on : on & ~static_cast<Effects>(interreflection_effect);
 }
 
+// What interreflection adds to the image, relRMSE, by a pilot: the scene in little, with it and without. Both follow
+// the same paths as far as both go; what is left of their noise counts as if it were light.
+double interreflection_share(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
+                             const RenderOptions &options, const GeometricOptions &geometric) {
+    constexpr std::uint32_t side = 32, tile = 256, realisations = 2, samples = 128;
+    const double scale = std::min(1.0, double{side} / std::min(scene.width, scene.height));
+    Scene little = scene;
+    little.width = static_cast<std::uint32_t>(std::ceil(scale * scene.width));
+    little.height = static_cast<std::uint32_t>(std::ceil(scale * scene.height));
+    RenderOptions pilot = options;
+    pilot.spp = realisations * samples;
+    pilot.errors = false;
+    pilot.exr_path.clear();
+    pilot.progress = nullptr;
+    const GeometricOptions of_pilot = {std::min(geometric.tile, tile), realisations, geometric.bounces};
+    pilot.effects = geometric_effects;
+    const Image with = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
+    pilot.effects &= ~static_cast<Effects>(interreflection_effect);
+    const Image without = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
+    return compare(without, with).relrmse;
+}
+
 } // namespace
 
 Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
                              const RenderOptions &options, const GeometricOptions &asked) {
     validate(scene);
     validate(options, asked);
-    const Effects on = geometric_effects_of(options, asked.bounces);
+    Effects on = geometric_effects_of(options, asked.bounces);
+    double interreflection = -1.0; // not judged
+    if (options.effects == auto_effects && (on & interreflection_effect)) {
+        interreflection = interreflection_share(context, brdf, source, scene, options, asked);
+        if (interreflection <= options.effect_tolerance) on &= ~static_cast<Effects>(interreflection_effect);
+    }
     GeometricOptions geometric = asked;
     if (!(on & interreflection_effect)) geometric.bounces = 0;
     Scene simple = scene;
@@ -107,6 +135,7 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     RowErrors seen(scene.height);
     Attributes attributes = describe_geometric(brdf, scene, options, geometric);
     attributes["slopemix.effects"] = effects_text(on);
+    if (interreflection >= 0.0) attributes["slopemix.interreflection"] = number_text(interreflection);
     canvas->begin(attributes);
     const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
         const auto integral = std::make_shared<GeometricIntegral>(device, task, most_rows);
@@ -123,6 +152,7 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     RenderReport report = timer.finish(context, seconds, lit * options.spp);
     report.spp = options.spp;
     report.effects = on;
+    report.interreflection = interreflection;
     report.standard_error = standard_error;
     return {std::move(image), report};
 }

@@ -45,7 +45,9 @@ struct RenderReport {
     double standard_error = -1.0; // of the image, relative to its root mean square; negative: no estimate
     std::vector<int> orders;      // of filtered shading: the widening's order of each lobe; 0 of one that is left out
     Effects effects = 0;          // simulated
-    std::size_t lobes = 0;        // of filtered shading: lobes that were shaded
+    double interreflection =
+        -1.0;               // of the geometric reference and auto_effects: relRMSE without it; negative: not asked
+    std::size_t lobes = 0;  // of filtered shading: lobes that were shaded
     double unsettled = 0.0; // share of the lit pixels that have a lobe whose nodes were placed before they settled
 };
 
