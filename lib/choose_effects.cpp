@@ -116,6 +116,7 @@ std::string reason(Effect effect, const Material &material, const Scene &scene, 
             return curve_change(material, scene);
         case lobe_color_effect:
             if (material.model == Model::Shared) return "the shared model has one curve for all lobes";
+            if (material.lobes.size() == 1) return "there is one lobe";
             return text(material.fresnel.size(), " lobes have their own curves");
         case anisotropy_effect:
             return axes(x);
@@ -130,7 +131,7 @@ std::string reason(Effect effect, const Material &material, const Scene &scene, 
 
 bool has_no_say(Effect effect, const Material &material, const Scene &scene) {
     const Displacement &x = scene.displacement;
-    if (effect == lobe_color_effect) return material.model == Model::Shared;
+    if (effect == lobe_color_effect) return material.model == Model::Shared || material.lobes.size() == 1;
     if (effect == anisotropy_effect) return is_isotropic(x);
     return effect == mean_slope_effect && x.mean_slope_x == 0.0 && x.mean_slope_y == 0.0;
 }

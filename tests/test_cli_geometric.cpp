@@ -26,8 +26,9 @@ Arguments geometric(const std::string &out) {
 TEST(CliGeometric, WritesAnImageAndSaysHow) {
     const test::TempDir dir;
     const std::string out = dir / "a.exr";
-    const test::CliResult run = test::cli(
-        test::with(geometric(out), {"--tile", "128", "--realisations", "4", "--bounces", "2", "--errors", "--json"}));
+    const test::CliResult run =
+        test::cli(test::with(geometric(out), {"--tile", "128", "--realisations", "4", "--bounces", "2", "--effects",
+                                              "all", "--errors", "--json"}));
     ASSERT_CLI_OK(run);
     const json report = run.json();
     EXPECT_EQ(report.at("integrator"), "geometric");
