@@ -1,18 +1,21 @@
 // smx_render_*, smx_material_eval, smx_brdf_eval, smx_brdf_integrate
 #include "draw_geometry.h"
 #include "eval_table.h"
-#include "handles.h"
 #include "integrate_geometric.h"
-#include "integrate_reference.h"
+#include "render_arguments.h"
 #include "shade_filtered.h"
 
 using namespace smx;
 
 namespace {
 
-Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
-
 smx_displacement to_c(const Displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
+
+} // namespace
+
+namespace smx {
+
+Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
 Scene to_cpp(const smx_scene &s) {
     return {s.width,
@@ -46,18 +49,22 @@ RenderOptions to_cpp(const smx_render_options &o) {
     return out;
 }
 
+ProposalSource proposal_of(smx_brdf brdf) {
+    return [proposal = brdf->proposal](std::optional<double> theta_d) -> const std::vector<Lobe> & {
+        return theta_d ? proposal->lobes(*theta_d) : proposal->lobes();
+    };
+}
+
+} // namespace smx
+
+namespace {
+
 void fill(smx_render_report *report, const RenderReport &r) {
     if (!report) return;
     *report = {sizeof *report,   r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp,
                r.standard_error, {},        r.unsettled};
     for (std::size_t k = 0; k < r.orders.size(); ++k)
         report->widening_orders[k] = static_cast<std::uint8_t>(r.orders[k]);
-}
-
-ProposalSource proposal_of(smx_brdf brdf) {
-    return [proposal = brdf->proposal](std::optional<double> theta_d) -> const std::vector<Lobe> & {
-        return theta_d ? proposal->lobes(*theta_d) : proposal->lobes();
-    };
 }
 
 // What the integrators have in common: arguments, and outputs that are written only at the end.

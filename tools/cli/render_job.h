@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "choose.h"
 #include "flags.h"
 #include "geometric_flags.h"
 #include "renderings.h"
@@ -17,7 +19,8 @@ constexpr Choice<Integrator> integrators[] = {
 
 struct RenderJob {
     std::string input, out;
-    Integrator integrator = Integrator::filtered;
+    Integrator integrator = Integrator::filtered; // where `choose` is asked for: what was chosen
+    ChooseFlags choose;
     std::pair<double, double> alpha, mean_slope;
     double rho = 0.0;
     double light_degrees = 0.0;
@@ -51,6 +54,7 @@ struct Rendered {
     std::string device;
     std::uint32_t devices = 1;
     double exposure = 1.0; // of the PNG
+    std::optional<Chosen> chosen;
 };
 
 void print_json(const RenderJob &job, const Rendered &rendered);

@@ -70,6 +70,7 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
     const smx_render_report &report = rendered.rendering.report;
     Json document = {{"version", SMX_VERSION_STRING}};
     document.update(configuration(job, rendered));
+    document["choice"] = rendered.chosen ? choice_json(*rendered.chosen, job.choose) : Json();
     document["out"] = job.out;
     document["png"] = job.png ? Json(job.png_file().string()) : Json();
     document["exposure"] = job.png ? Json(rendered.exposure) : Json();
@@ -92,6 +93,8 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
         for (int order : orders_of(report, rendered.lobes)) orders += ' ' + std::to_string(order);
         facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);
     }
+    if (rendered.chosen)
+        for (const auto &fact : choice_facts(*rendered.chosen)) facts.push_back(fact);
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
     facts.emplace_back("device", rendered.device);
     facts.emplace_back("seconds", fixed(report.seconds, 3) + " (on the device " + fixed(report.kernel_seconds, 3) +

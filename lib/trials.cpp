@@ -1,0 +1,100 @@
+#include "trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "choice_constants.h"
+#include "fit_error.h"
+#include "widening.h"
+
+namespace smx {
+
+namespace {
+
+// More would take the pilot longer than small images take; the error is extrapolated from there.
+constexpr std::uint32_t most_tried_spp = 1u << 16;
+
+std::size_t index_of(Sampler sampler) { return static_cast<std::size_t>(sampler); }
+
+} // namespace
+
+Trials::Trials(const std::optional<ChoiceTable> &table, const std::vector<const Material *> &materials,
+               const Scene &scene, Pilot pilot)
+    : table_(table), materials_(materials), scene_(scene), pilot_(std::move(pilot)) {}
+
+const PilotValues &Trials::counted(const PilotValues &values) {
+    kernel_seconds_ += values.kernel_seconds;
+    modelled_seconds_ += values.modelled_seconds;
+    return values;
+}
+
+double Trials::device_speed() const {
+    return kernel_seconds_ > 0.0 && modelled_seconds_ > 0.0 ? kernel_seconds_ / modelled_seconds_ : 1.0;
+}
+
+void Trials::find_truth(double target, std::uint32_t most_spp) {
+    truth_ = counted(pilot_.truth(table_->brdf, table_->proposal, target, most_spp));
+    truth_error_ = pilot_.standard_error(truth_);
+    tried_ = {};
+}
+
+double Trials::extrapolated(const Configuration &c) const {
+    const Tried &tried = tried_[index_of(c.sampler)];
+    const double finer = static_cast<double>(c.spp) / tried.spp;
+    return tried.error * std::pow(finer, -choice::fall[index_of(c.sampler)]);
+}
+
+bool Trials::is_hopeless(const Configuration &c, double limit) const {
+    const Tried &tried = tried_[index_of(c.sampler)];
+    if (!c.is_reference() || tried.spp == 0 || c.spp <= tried.spp || c.spp > most_tried_spp) return false;
+    const double steepest = rough_axes(scene_.displacement) == 1 ? choice::steepest_on_a_line : choice::steepest;
+    return tried.error * std::pow(static_cast<double>(c.spp) / tried.spp, -steepest) > limit;
+}
+
+double Trials::error(const Configuration &c) { return c.is_reference() ? reference_error(c) : filtered_error(c); }
+
+std::optional<double> Trials::known_error(const Configuration &c) {
+    if (!c.is_reference()) return filtered_error(c);
+    if (tried_[index_of(c.sampler)].spp == 0) return std::nullopt;
+    return extrapolated(c);
+}
+
+void Trials::try_reference(Sampler sampler, std::uint32_t spp) {
+    Tried &tried = tried_[index_of(sampler)];
+    const PilotValues values = counted(pilot_.reference(table_->brdf, table_->proposal, sampler, spp));
+    const double off = pilot_.error(values, truth_), own2 = off * off - truth_error_ * truth_error_;
+    // The difference has the truth's error in it, and tells little once that is most of it.
+    tried.is_finest = off < 2.0 * truth_error_;
+    if (tried.is_finest && tried.spp > 0) return;
+    tried.spp = spp;
+    tried.error = choice::margin * (tried.is_finest ? off : std::sqrt(own2));
+}
+
+double Trials::reference_error(const Configuration &c) {
+    const Tried &tried = tried_[index_of(c.sampler)];
+    const std::uint32_t spp = std::min(c.spp, most_tried_spp);
+    if (spp > tried.spp && !tried.is_finest) try_reference(c.sampler, spp);
+    return extrapolated(c);
+}
+
+// Of a material by the highest order, which stands for its widening without error.
+const PilotValues &Trials::finest(std::size_t material) {
+    const auto found = finest_.find(material);
+    if (found != finest_.end()) return found->second;
+    return finest_.emplace(material, counted(pilot_.filtered(*materials_[material], max_widening_order))).first->second;
+}
+
+double Trials::filtered_error(const Configuration &c) {
+    const Material &material = *materials_[*c.material];
+    const PilotValues values = counted(pilot_.filtered(material, c.widening_order));
+    if (!table_) {
+        const double widening = pilot_.error(values, finest(*c.material));
+        return std::hypot(predicted_fit_error(material, scene_.displacement), widening);
+    }
+    const double off = pilot_.error(values, truth_);
+    // An error below the truth's own is not known to be less than that.
+    return choice::margin * std::sqrt(std::max(off * off - truth_error_ * truth_error_, truth_error_ * truth_error_));
+}
+
+} // namespace smx
