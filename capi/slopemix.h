@@ -633,10 +633,10 @@ typedef struct smx_choice {
     double device_speed;   /* seconds on this device over those of the library's own table of costs */
     double seconds, kernel_seconds, build_seconds; /* of the choice, as in smx_render_report */
 } smx_choice;
-#define SMX_CHOICE_INIT                                                                                             \
-    {                                                                                                               \
-        sizeof(smx_choice), SMX_CONFIGURATION_INIT, 0, 0, SMX_CONFIGURATION_INIT, SMX_CONFIGURATION_INIT, 0, {{0}}, \
-            "", 0, -1.0, 1.0, 0.0, 0.0, 0.0                                                                         \
+#define SMX_CHOICE_INIT                                                                                      \
+    {                                                                                                        \
+        sizeof(smx_choice), SMX_CONFIGURATION_INIT, 0, 0, SMX_CONFIGURATION_INIT, SMX_CONFIGURATION_INIT, 0, \
+            {SMX_CONFIGURATION_INIT}, "", 0, -1.0, 1.0, 0.0, 0.0, 0.0                                        \
     }
 
 /* Chooses how to make an image by its error or its time (docs/choosing.md). Configurations are tried, cheapest first,

@@ -4,8 +4,8 @@
 
 namespace smx {
 
-double predicted_fit_error(const Material &material, const Displacement &) {
-    if (!(material.report.displaced_relrmse > 0.0))
+double predicted_fit_error(const Material &material) {
+    if (!(material.report.base_relrmse > 0.0))
         fail(Fault::NoSolution, material.name,
              " was not fitted to a table: nothing is known of its error. Give the table too");
     return material.report.base_relrmse;

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "material.h"
-#include "scene.h"
 
 namespace smx {
 
-// relRMSE of the fit alone, widened without error: predicted from the fit's report by a calibrated relation, which is
-// good to a factor of two (docs/choosing.md). Throws NoSolution for a material that was not fitted to a table.
-double predicted_fit_error(const Material &material, const Displacement &displacement);
+// relRMSE of the fit alone, widened without error, from its report: what the base has undisplaced. That is a bound
+// rather than an estimate: displaced, 8 lobes of the per-lobe model had half of it in the median, and less than it in
+// nine cases of ten (docs/choosing.md). Throws NoSolution for a material that was not fitted to a table.
+double predicted_fit_error(const Material &material);
 
 } // namespace smx

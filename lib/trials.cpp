@@ -39,10 +39,10 @@ void Trials::find_truth(double target, std::uint32_t most_spp) {
     tried_ = {};
 }
 
-double Trials::extrapolated(const Configuration &c) const {
-    const Tried &tried = tried_[index_of(c.sampler)];
-    const double finer = static_cast<double>(c.spp) / tried.spp;
-    return tried.error * std::pow(finer, -choice::fall[index_of(c.sampler)]);
+double Trials::extrapolated(Sampler sampler, std::uint32_t spp) const {
+    const Tried &tried = tried_[index_of(sampler)];
+    const double finer = static_cast<double>(spp) / tried.spp;
+    return tried.error * std::pow(finer, -choice::fall[index_of(sampler)]);
 }
 
 bool Trials::is_hopeless(const Configuration &c, double limit) const {
@@ -57,25 +57,25 @@ double Trials::error(const Configuration &c) { return c.is_reference() ? referen
 std::optional<double> Trials::known_error(const Configuration &c) {
     if (!c.is_reference()) return filtered_error(c);
     if (tried_[index_of(c.sampler)].spp == 0) return std::nullopt;
-    return extrapolated(c);
+    return extrapolated(c.sampler, c.spp);
 }
 
 void Trials::try_reference(Sampler sampler, std::uint32_t spp) {
     Tried &tried = tried_[index_of(sampler)];
     const PilotValues values = counted(pilot_.reference(table_->brdf, table_->proposal, sampler, spp));
-    const double off = pilot_.error(values, truth_), own2 = off * off - truth_error_ * truth_error_;
-    // The difference has the truth's error in it, and tells little once that is most of it.
-    tried.is_finest = off < 2.0 * truth_error_;
-    if (tried.is_finest && tried.spp > 0) return;
+    const double off = pilot_.error(values, truth_);
+    // The difference has the truth's error in it. Where that is most of it, it is a bound and no more.
+    tried.is_finest = off < 1.2 * truth_error_;
+    const double bound = tried.spp == 0 ? off : std::min(off, extrapolated(sampler, spp) / choice::margin);
+    tried.error = choice::margin * (tried.is_finest ? bound : std::sqrt(off * off - truth_error_ * truth_error_));
     tried.spp = spp;
-    tried.error = choice::margin * (tried.is_finest ? off : std::sqrt(own2));
 }
 
 double Trials::reference_error(const Configuration &c) {
     const Tried &tried = tried_[index_of(c.sampler)];
     const std::uint32_t spp = std::min(c.spp, most_tried_spp);
     if (spp > tried.spp && !tried.is_finest) try_reference(c.sampler, spp);
-    return extrapolated(c);
+    return extrapolated(c.sampler, c.spp);
 }
 
 // Of a material by the highest order, which stands for its widening without error.
@@ -90,11 +90,12 @@ double Trials::filtered_error(const Configuration &c) {
     const PilotValues values = counted(pilot_.filtered(material, c.widening_order));
     if (!table_) {
         const double widening = pilot_.error(values, finest(*c.material));
-        return std::hypot(predicted_fit_error(material, scene_.displacement), widening);
+        return std::hypot(predicted_fit_error(material), widening);
     }
     const double off = pilot_.error(values, truth_);
-    // An error below the truth's own is not known to be less than that.
-    return choice::margin * std::sqrt(std::max(off * off - truth_error_ * truth_error_, truth_error_ * truth_error_));
+    // An error below half the truth's own is not known to be less than that.
+    const double noise2 = truth_error_ * truth_error_;
+    return choice::margin * std::sqrt(std::max(off * off - noise2, 0.25 * noise2));
 }
 
 } // namespace smx

@@ -46,7 +46,7 @@ class Trials {
     void try_reference(Sampler sampler, std::uint32_t spp);
     double reference_error(const Configuration &configuration);
     double filtered_error(const Configuration &configuration);
-    double extrapolated(const Configuration &configuration) const;
+    double extrapolated(Sampler sampler, std::uint32_t spp) const;
     const PilotValues &finest(std::size_t material);
 
     const std::optional<ChoiceTable> &table_;
