@@ -56,6 +56,8 @@ class Chooser {
   private:
     Configuration tried(const Configuration &c);
     Configuration in_seconds_here(Configuration c) const;
+    std::vector<Configuration> affordable(double max_seconds) const;
+    void find_truth_beyond(double max_seconds);
     Choice finished(const Configuration &picked, const std::string &reason);
     std::optional<Configuration> better_than(const Configuration &picked);
     std::string told(const Configuration &c) const;
@@ -136,25 +138,31 @@ std::vector<Configuration> worth_trying(const std::vector<Configuration> &afford
     return chosen;
 }
 
+std::vector<Configuration> Chooser::affordable(double max_seconds) const {
+    std::vector<Configuration> within;
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(within),
+                 [&](const Configuration &c) { return in_seconds_here(c).seconds <= max_seconds; });
+    return within;
+}
+
+// The truth has four times the samples of what can be afforded, which a first look at the device's speed tells.
+void Chooser::find_truth_beyond(double max_seconds) {
+    trials_.find_truth(no_target, first_look_spp);
+    std::uint32_t spp = first_look_spp / truth_samples;
+    for (const Configuration &c : affordable(max_seconds)) spp = std::max(spp, c.spp);
+    trials_.find_truth(no_target, std::min(spp, most_truth_spp / truth_samples) * truth_samples);
+}
+
 Choice Chooser::best_within(double max_seconds, bool has_table) {
-    // A first look tells how fast the device is.
     if (has_table)
-        trials_.find_truth(no_target, first_look_spp);
+        find_truth_beyond(max_seconds);
     else
-        trials_.error(all_.front());
-    std::vector<Configuration> affordable;
-    std::uint32_t most_spp = first_look_spp / truth_samples;
-    for (const Configuration &c : all_) {
-        if (in_seconds_here(c).seconds > max_seconds) break;
-        affordable.push_back(c);
-        most_spp = std::max(most_spp, c.spp);
-    }
-    if (affordable.empty())
+        trials_.error(all_.front()); // which tells the device's speed
+    for (const Configuration &c : worth_trying(affordable(max_seconds))) tried(c);
+    if (tried_.empty())
         fail(Fault::NoSolution, "max_seconds is ", max_seconds, "; the cheapest is ",
              description(all_.front(), materials_), ", predicted to take ", in_seconds_here(all_.front()).seconds,
              " s");
-    if (has_table) trials_.find_truth(no_target, std::min(most_spp, most_truth_spp / truth_samples) * truth_samples);
-    for (const Configuration &c : worth_trying(affordable)) tried(c);
     return finished(of_least_error(tried_), text("the most accurate within ", max_seconds, " s"));
 }
 

@@ -25,18 +25,18 @@ Trials::Trials(const std::optional<ChoiceTable> &table, const std::vector<const 
 
 const PilotValues &Trials::counted(const PilotValues &values) {
     kernel_seconds_ += values.kernel_seconds;
-    modelled_seconds_ += values.modelled_seconds;
     return values;
 }
 
-double Trials::device_speed() const {
-    return kernel_seconds_ > 0.0 && modelled_seconds_ > 0.0 ? kernel_seconds_ / modelled_seconds_ : 1.0;
+void Trials::set_speed(const PilotValues &values) {
+    if (values.kernel_seconds > 0.0) device_speed_ = values.kernel_seconds / values.modelled_seconds;
 }
 
 void Trials::find_truth(double target, std::uint32_t most_spp) {
     truth_ = counted(pilot_.truth(table_->brdf, table_->proposal, target, most_spp));
     truth_error_ = pilot_.standard_error(truth_);
     tried_ = {};
+    set_speed(truth_);
 }
 
 double Trials::extrapolated(Sampler sampler, std::uint32_t spp) const {
@@ -82,7 +82,9 @@ double Trials::reference_error(const Configuration &c) {
 const PilotValues &Trials::finest(std::size_t material) {
     const auto found = finest_.find(material);
     if (found != finest_.end()) return found->second;
-    return finest_.emplace(material, counted(pilot_.filtered(*materials_[material], max_widening_order))).first->second;
+    const PilotValues values = counted(pilot_.filtered(*materials_[material], max_widening_order));
+    if (finest_.empty()) set_speed(values);
+    return finest_.emplace(material, values).first->second;
 }
 
 double Trials::filtered_error(const Configuration &c) {

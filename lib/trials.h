@@ -30,9 +30,9 @@ class Trials {
     std::size_t pixels() const { return pilot_.count(); }
     double truth_error() const { return truth_error_; } // negative: without a table
 
-    // Seconds of this device over those of the constants' (configuration.h), as far as tried; 1 where nothing was, or
-    // where its queue does not tell the time.
-    double device_speed() const;
+    // Seconds of this device over those of the constants' (configuration.h), from what took longest: the truth, or the
+    // first material's highest order. 1 before that, and where the queue does not tell the time.
+    double device_speed() const { return device_speed_; }
     double kernel_seconds() const { return kernel_seconds_; }
 
   private:
@@ -43,6 +43,7 @@ class Trials {
     };
 
     const PilotValues &counted(const PilotValues &values);
+    void set_speed(const PilotValues &values);
     void try_reference(Sampler sampler, std::uint32_t spp);
     double reference_error(const Configuration &configuration);
     double filtered_error(const Configuration &configuration);
@@ -57,7 +58,7 @@ class Trials {
     double truth_error_ = -1.0;
     std::array<Tried, 3> tried_;                // by sampler, the finest
     std::map<std::size_t, PilotValues> finest_; // by material, of the highest order: without a table
-    double kernel_seconds_ = 0.0, modelled_seconds_ = 0.0;
+    double kernel_seconds_ = 0.0, device_speed_ = 1.0;
 };
 
 } // namespace smx
