@@ -64,7 +64,7 @@ Tally run(const std::vector<std::string> &materials, std::size_t each, uint32_t 
             const test::ChooseOutcome o = test::outcome_of(subject, c);
             rows.add(material, c, o);
             ++tally.cases;
-            tally.within_error += o.true_error <= 1.25 * c.max_error;
+            tally.within_error += o.holds(c.max_error);
             tally.within_cost += o.cost_ratio <= 2.0;
         }
     }

@@ -55,12 +55,19 @@ using Flags = std::initializer_list<const char *>;
 
 // A flag of another integrator is no error, so that one set of flags serves all; but it is said.
 void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
+    const std::string with = job.choose.is_asked_for()
+                                 ? "a choice by error or time"
+                                 : std::string("--integrator ") + word_for(job.integrator, integrators);
     const auto note = [&](bool without_effect, Flags flags) {
         for (const char *flag : flags)
             if (without_effect && command.count(flag) > 0)
-                std::cerr << "slopemix: note: " << flag << " has no effect with --integrator "
-                          << word_for(job.integrator, integrators) << '\n';
+                std::cerr << "slopemix: note: " << flag << " has no effect with " << with << '\n';
     };
+    if (job.choose.is_asked_for()) {
+        note(true, {"--bounces", "--tile", "--realisations"});
+        note(!job.choose.materials.empty() || is_material_file(job.input), {"--lobes", "--model"});
+        return;
+    }
     note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance"});
     note(!job.is_reference(), {"--target-error", "--sampler"});
     note(job.is_filtered(), {"--spp", "--seed", "--lookup", "--errors"});
@@ -264,7 +271,7 @@ void add_render(CLI::App &app) {
         job->lobes_given = command->count("--lobes") > 0;
         job->model_given = command->count("--model") > 0;
         require_way(*command, *job);
-        if (!job->choose.is_asked_for()) note_flags_without_effect(*command, *job);
+        note_flags_without_effect(*command, *job);
         if (job->is_geometric()) {
             job->flags.target_error = 0.0;
             if (command->count("--spp") == 0) job->flags.spp = geometric_spp;
