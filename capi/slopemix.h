@@ -643,7 +643,7 @@ typedef struct smx_choice {
  * on a pilot: pixels of the scene itself, where enough samples of the table say what is true. They are `material_count`
  * materials, 0..SMX_MAX_CHOOSE_MATERIALS, by some orders of widening, and the reference of `brdf` by every sampler and
  * powers of two of samples. `brdf` may be NULL: the materials' fit reports then say how far they are from their table,
- * which is good to a factor of two. Of `render`, which may be NULL, seed, lookup, grade and progress count, and must be
+ * an upper bound as a rule. Of `render`, which may be NULL, seed, lookup, grade and progress count, and must be
  * those of the image; the prediction is for that seed.
  * Statuses: INVALID_ARGUMENT, NO_SOLUTION (no configuration will do: the message has the nearest, its error and its
  * seconds; a material without a fit to a table, where there is no brdf), KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY,
