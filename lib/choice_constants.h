@@ -23,7 +23,7 @@ constexpr std::array<double, 3> facet_ns = {40.0, 60.0, 550.0};
 
 // The reference's error falls as the samples' number to the minus `fall`, as a rule; and hardly ever faster than to the
 // minus `steepest`, so that numbers too small for an error need not be tried.
-constexpr std::array<double, 3> fall = {0.5, 0.75, 0.8};
+constexpr std::array<double, 3> fall = {0.5, 0.6, 0.7};
 constexpr double steepest = 1.25, steepest_on_a_line = 2.0;
 
 // Of what the pilot's pixels show, so that the image's error is no more than 1.25 times the predicted one in 95 of 100.
