@@ -1,8 +1,7 @@
 // smx_material_effects, smx_effect_name
 #include <chrono>
 
-#include "handles.h"
-#include "to_cpp.h"
+#include "render_arguments.h"
 
 using namespace smx;
 

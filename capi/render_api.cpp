@@ -1,21 +1,63 @@
 // smx_render_*, smx_material_eval, smx_brdf_eval, smx_brdf_integrate
 #include "draw_geometry.h"
 #include "eval_table.h"
-#include "handles.h"
 #include "integrate_geometric.h"
-#include "integrate_reference.h"
+#include "render_arguments.h"
 #include "shade_filtered.h"
-#include "to_cpp.h"
 
 using namespace smx;
 
 namespace {
 
-using smx::to_cpp;
-
 smx_displacement to_c(const Displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
+} // namespace
+
+namespace smx {
+
+Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
+
+Scene to_cpp(const smx_scene &s) {
+    return {s.width,
+            s.height,
+            s.light_phi,
+            to_cpp(s.displacement),
+            static_cast<Masking>(s.masking),
+            static_cast<Light>(s.light)};
+}
+
 GeometricOptions to_cpp(const smx_geometric_options &g) { return {g.tile, g.realisations, g.bounces}; }
+
+RenderOptions to_cpp(const smx_render_options &o) {
+    RenderOptions out;
+    out.sampler = static_cast<Sampler>(o.sampler);
+    out.spp = o.spp;
+    out.seed = o.seed;
+    out.lookup = static_cast<Lookup>(o.lookup);
+    out.target_error = o.target_error;
+    out.grade = static_cast<Grade>(o.grade);
+    out.widening_order = o.widening_order;
+    out.widening_tolerance = o.widening_tolerance;
+    out.effects = o.effects;
+    out.effect_tolerance = o.effect_tolerance;
+    out.errors = o.errors != 0;
+    out.whole_table = o.whole_table != 0;
+    if (o.exr_path) out.exr_path = o.exr_path;
+    require(!o.exr_path || *o.exr_path, "exr_path is empty; it must be a file's path or null");
+    if (o.progress)
+        out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
+    return out;
+}
+
+ProposalSource proposal_of(smx_brdf brdf) {
+    return [proposal = brdf->proposal](std::optional<double> theta_d) -> const std::vector<Lobe> & {
+        return theta_d ? proposal->lobes(*theta_d) : proposal->lobes();
+    };
+}
+
+} // namespace smx
+
+namespace {
 
 void fill(smx_render_report *report, const RenderReport &r) {
     if (!report) return;
@@ -29,15 +71,10 @@ void fill(smx_render_report *report, const RenderReport &r) {
                {},
                r.unsettled,
                r.effects,
-               static_cast<uint32_t>(r.lobes), r.interreflection};
+               static_cast<uint32_t>(r.lobes),
+               r.interreflection};
     for (std::size_t k = 0; k < r.orders.size(); ++k)
         report->widening_orders[k] = static_cast<std::uint8_t>(r.orders[k]);
-}
-
-ProposalSource proposal_of(smx_brdf brdf) {
-    return [proposal = brdf->proposal](std::optional<double> theta_d) -> const std::vector<Lobe> & {
-        return theta_d ? proposal->lobes(*theta_d) : proposal->lobes();
-    };
 }
 
 // What the integrators have in common: arguments, and outputs that are written only at the end.

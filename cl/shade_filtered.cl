@@ -68,6 +68,7 @@ __kernel void shade_filtered_pairs(__global float *fcos, int stride, __global co
                                    Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
                                    __constant float *theta_d, int knots) {
     int at = W * (int)get_global_id(0);
+    if (at >= stride) return;
     PairsOfDirections d = load_pairs(wi, wo, stride, at);
     Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
     KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));

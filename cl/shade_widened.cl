@@ -66,6 +66,7 @@ __kernel void shade_widened_pairs(__global float *fcos, int stride, __global con
                                   __constant float *theta_d, int knots, FacetDensity facets,
                                   __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
     int at = W * (int)get_global_id(0);
+    if (at >= stride) return;
     PairsOfDirections d = load_pairs(wi, wo, stride, at);
     Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
     Quadrature q = quadrature(&facets, orders, nodes, &e, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);

@@ -45,8 +45,8 @@ RenderReport integrate_to_target(const RenderOptions &options, IntegralTask &tas
         report.kernel_seconds += tried.kernel_seconds;
         report.evaluations += lit * report.spp;
         if (std::isnan(report.standard_error)) fail(Fault::Internal, "the reference's standard error is no number");
-        if (!to_target || report.standard_error <= options.target_error || spp >= max_spp) return report;
-        spp = next_spp(spp, report.standard_error, options.target_error);
+        if (!to_target || report.standard_error <= options.target_error || spp >= options.most_spp) return report;
+        spp = std::min(next_spp(spp, report.standard_error, options.target_error), options.most_spp);
     }
 }
 
@@ -71,11 +71,10 @@ IntegralTask task_of(const Displacement &displacement, Effects on, const RenderO
 }
 
 Attributes describe_reference(const Brdf &brdf, const Scene &scene, const RenderOptions &options, std::uint32_t spp) {
-    const char *samplers[] = {"grid", "sobol", "mis"};
     Attributes attributes = describe("reference", scene);
     attributes["slopemix.brdf"] = brdf.name();
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
-    attributes["slopemix.sampler"] = samplers[static_cast<int>(options.sampler)];
+    attributes["slopemix.sampler"] = sampler_name(options.sampler);
     attributes["slopemix.spp"] = std::to_string(spp);
     attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.seed"] = std::to_string(options.seed);
@@ -131,6 +130,23 @@ Attempt try_pairs(Context &context, const IntegralTask &task, const RenderOption
     job.ahead = job.tiles.size();
     const double seconds = run_tiles(context, job);
     return {seconds, seen.relative()};
+}
+
+// Of a task without pairs yet; arrays are planes.
+RenderReport integrate_list(Context &context, const RenderOptions &options, IntegralTask &task, std::size_t count,
+                            const float *wi, const float *wo, float *fcos, float *errors) {
+    const PairPlanes pairs = planes_of(wi, wo, count, context.width());
+    task.pairs = &pairs;
+    task.row_items = 1;
+
+    // Into arrays of ours first: what fails leaves the caller's as they were.
+    std::vector<float> values(3 * count), deviations(errors ? 3 * count : 0);
+    const RenderReport report = integrate_to_target(options, task, lit_pairs(wi, wo, count), [&](std::uint32_t) {
+        return try_pairs(context, task, options, count, values.data(), errors ? deviations.data() : nullptr);
+    });
+    std::copy(values.begin(), values.end(), fcos);
+    std::copy(deviations.begin(), deviations.end(), errors);
+    return report;
 }
 
 } // namespace
@@ -200,21 +216,33 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     const bool about_wh = draws_about_wh(displacement, options);
     const std::vector<Lobe> proposal = about_wh ? source(std::nullopt) : std::vector<Lobe>{};
     const std::vector<float> table = table_whole(brdf);
-    const PairPlanes pairs = planes_of(wi, wo, count, context.width());
     IntegralTask task = task_of(displacement, on, options);
-    task.pairs = &pairs;
-    task.row_items = 1;
     task.whole_table = true;
     task.table = &table;
     task.proposal = &proposal;
+    RenderReport report = integrate_list(context, options, task, count, wi, wo, fcos, errors);
+    add_times(report, timer.finish(context, 0.0, 0));
+    report.effects = on;
+    return report;
+}
 
-    // Into arrays of ours first: what fails leaves the caller's as they were.
-    std::vector<float> values(3 * count), deviations(errors ? 3 * count : 0);
-    RenderReport report = integrate_to_target(options, task, lit_pairs(wi, wo, count), [&](std::uint32_t) {
-        return try_pairs(context, task, options, count, values.data(), errors ? deviations.data() : nullptr);
-    });
-    std::copy(values.begin(), values.end(), fcos);
-    std::copy(deviations.begin(), deviations.end(), errors);
+RenderReport integrate_pixels(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
+                              const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
+                              float *fcos, float *errors) {
+    validate(options);
+    const Effects on = reference_effects_of(options, scene.masking);
+    const Displacement displacement = simplified(scene.displacement, on);
+    const Context::Lock lock(context);
+    const CallTimer timer(context);
+    report_progress(options, 0.0);
+
+    const bool about_wh = draws_about_wh(displacement, options);
+    const std::vector<Lobe> proposal = about_wh ? source(theta_d(scene)) : std::vector<Lobe>{};
+    const std::vector<float> table = table_slice(brdf, theta_d(scene), options.lookup);
+    IntegralTask task = task_of(displacement, on, options);
+    task.table = &table;
+    task.proposal = &proposal;
+    RenderReport report = integrate_list(context, options, task, count, wi, wo, fcos, errors);
     add_times(report, timer.finish(context, 0.0, 0));
     report.effects = on;
     return report;

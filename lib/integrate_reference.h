@@ -27,4 +27,10 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
                              const Displacement &displacement, Masking masking, const RenderOptions &options,
                              std::size_t count, const float *wi, const float *wo, float *fcos, float *errors);
 
+// `count` > 0 lit pixels of the sphere, by the facets that integrate_reference gives its image; planes, as there. The
+// scene is valid and has a directional light.
+RenderReport integrate_pixels(Context &context, const Brdf &brdf, const ProposalSource &proposal, const Scene &scene,
+                              const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
+                              float *fcos, float *errors);
+
 } // namespace smx

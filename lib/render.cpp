@@ -15,6 +15,11 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 } // namespace
 
+std::string sampler_name(Sampler sampler) {
+    constexpr const char *names[] = {"grid", "sobol", "mis"};
+    return names[static_cast<int>(sampler)];
+}
+
 double render_tiles(Context &context, const Scene &scene, const RenderOptions &options, Canvas &canvas,
                     const StartRows &start) {
     TileJob job;

@@ -180,9 +180,9 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     return rendered;
 }
 
-void shade_filtered_pairs(Context &context, const Material &given, const Displacement &x, Masking masking,
-                          const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
-                          float *fcos) {
+double shade_filtered_pairs(Context &context, const Material &given, const Displacement &x, Masking masking,
+                            const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
+                            float *fcos) {
     validate(x);
     validate(masking);
     const Effects on = everything(given, options.effects, masking).on;
@@ -195,7 +195,7 @@ void shade_filtered_pairs(Context &context, const Material &given, const Displac
             max_widening_order);
     require_pair_count(count);
     const std::size_t stride = round_up(count, context.width());
-    if (count == 0) return;
+    if (count == 0) return 0.0;
 
     const Context::Lock lock(context);
     const std::vector<int> orders = fixed_orders(material, displacement, options.widening_order);
@@ -219,11 +219,12 @@ void shade_filtered_pairs(Context &context, const Material &given, const Displac
     kernel.setArg(9, static_cast<cl_int>(material.theta_d.size()));
     std::vector<cl::Buffer> kept;
     if (program.widened) kept = set_widening(context, kernel, 10, material, displacement, orders, grade);
-    context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(stride / context.width()));
+    const double seconds = launch(context, kernel, stride / context.width(), 1, 0);
 
     std::vector<float> planes(3 * stride);
     context.queue().enqueueReadBuffer(out, CL_TRUE, 0, planes.size() * sizeof(float), planes.data());
     from_planes(planes, count, fcos);
+    return seconds;
 }
 
 LobeValues eval_lobes(Context &context, const Material &material, const std::vector<int> &orders, const Scene &scene,

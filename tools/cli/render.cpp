@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "commands.h"
 #include "effect_flags.h"
@@ -20,7 +22,7 @@ namespace {
 void require_legal_usage(const RenderJob &job) {
     if (std::filesystem::path(job.out).extension() != ".exr")
         throw CLI::ValidationError("--out", "'" + job.out + "' does not end in .exr");
-    if (!job.is_filtered() && is_material_file(job.input))
+    if (!job.choose.is_asked_for() && !job.is_filtered() && is_material_file(job.input))
         throw CLI::ValidationError("INPUT",
                                    "the reference needs a measured table, and '" + job.input + "' is a material file");
     if (job.scene.uniform_light && !job.is_geometric())
@@ -30,16 +32,33 @@ void require_legal_usage(const RenderJob &job) {
     if (job.errors) require_estimate(job.flags);
 }
 
+// An image is made by an integrator, or as is chosen.
+void require_way(const CLI::App &command, const RenderJob &job) {
+    if (!job.choose.is_asked_for() && command.count("--integrator") == 0)
+        throw CLI::RequiredError("--integrator (or --max-error, or --max-seconds)");
+    if (!job.choose.is_asked_for() && !job.choose.materials.empty())
+        throw CLI::ValidationError("--material", "needs --max-error or --max-seconds");
+    if (job.choose.is_asked_for() && job.errors)
+        throw CLI::ValidationError("--errors", "the choice may fall on a filtered image, which has none");
+}
+
 using Flags = std::initializer_list<const char *>;
 
 // A flag of another integrator is no error, so that one set of flags serves all; but it is said.
 void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
+    const std::string with = job.choose.is_asked_for()
+                                 ? "a choice by error or time"
+                                 : std::string("--integrator ") + word_for(job.integrator, integrators);
     const auto note = [&](bool without_effect, Flags flags) {
         for (const char *flag : flags)
             if (without_effect && command.count(flag) > 0)
-                std::cerr << "slopemix: note: " << flag << " has no effect with --integrator "
-                          << word_for(job.integrator, integrators) << '\n';
+                std::cerr << "slopemix: note: " << flag << " has no effect with " << with << '\n';
     };
+    if (job.choose.is_asked_for()) {
+        note(true, {"--bounces", "--tile", "--realisations"});
+        note(!job.choose.materials.empty() || is_material_file(job.input), {"--lobes", "--model"});
+        return;
+    }
     note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance", "--effect-tolerance"});
     note(!job.is_reference(), {"--target-error", "--sampler"});
     note(job.is_filtered(), {"--spp", "--seed", "--lookup", "--errors"});
@@ -60,31 +79,70 @@ Material load_material(const RenderJob &job) {
     return material;
 }
 
-Rendered render_filtered(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
-    const Context context = open_context(job.flags);
-    const Material material =
-        is_material_file(job.input) ? load_material(job) : fit(invert(open_brdf(job.input)), job.fit);
-    const smx_material_info info = info_of(material);
-    const smx_device_info device = info_of(context);
-    Rendered rendered = {render_filtered(context, material, view, options),
+// What an image is made of: a material for the filter, a table for the references.
+struct Source {
+    Context context;
+    Brdf brdf;
+    Material material;
+};
+
+Source open_source(const RenderJob &job) {
+    Source source{open_context(job.flags), {}, {}};
+    if (!job.is_filtered())
+        source.brdf = open_brdf(job.input);
+    else if (is_material_file(job.input))
+        source.material = load_material(job);
+    else
+        source.material = fit(invert(open_brdf(job.input)), job.fit);
+    return source;
+}
+
+smx_scene view_of(const RenderJob &job) {
+    smx_scene view = scene(job.flags, job.scene.displacement(), job.scene.light_degrees);
+    view.light = job.scene.uniform_light ? SMX_LIGHT_UNIFORM : SMX_LIGHT_DIRECTIONAL;
+    return view;
+}
+
+// Chooses, and leaves the choice in the job's flags.
+Chosen choose(RenderJob &job, Source &source) {
+    source.context = open_context(job.flags);
+    Candidates candidates = open_candidates(job.input, job.choose, job.fit, job.lobes_given);
+    Chosen chosen = choose(source.context, candidates, view_of(job), render_options(job.flags), job.choose);
+    const smx_configuration &picked = chosen.choice.picked;
+    if (picked.material == SMX_BY_REFERENCE) {
+        job.integrator = Integrator::reference;
+        job.flags.sampler = picked.sampler;
+        job.flags.spp = picked.spp;
+        source.brdf = std::move(candidates.brdf);
+    } else {
+        job.integrator = Integrator::filtered;
+        job.flags.widening_order = picked.widening_order;
+        source.material = std::move(candidates.materials[static_cast<std::size_t>(picked.material)]);
+    }
+    return chosen;
+}
+
+Rendered render_filtered(const Source &source, const smx_scene &view, const smx_render_options &options) {
+    const smx_material_info info = info_of(source.material);
+    const smx_device_info device = info_of(source.context);
+    Rendered rendered = {render_filtered(source.context, source.material, view, options),
                          info.name,
                          info.model,
                          info.lobes,
                          device.name,
                          device.devices};
     rendered.effects = SMX_EFFECT_REPORT_INIT;
-    check(smx_material_effects(material.get(), &view, &options, &*rendered.effects));
+    check(smx_material_effects(source.material.get(), &view, &options, &*rendered.effects));
     return rendered;
 }
 
 // By one of the references, which take a table.
-Rendered render_table(const RenderJob &job, const smx_scene &view, const smx_render_options &options) {
-    const Context context = open_context(job.flags);
-    const Brdf brdf = open_brdf(job.input);
-    const smx_device_info device = info_of(context);
-    return {job.is_geometric() ? render_geometric(context, brdf, view, options, job.geometric.options())
-                               : render_reference(context, brdf, view, options),
-            info_of(brdf).name,
+Rendered render_table(const RenderJob &job, const Source &source, const smx_scene &view,
+                      const smx_render_options &options) {
+    const smx_device_info device = info_of(source.context);
+    return {job.is_geometric() ? render_geometric(source.context, source.brdf, view, options, job.geometric.options())
+                               : render_reference(source.context, source.brdf, view, options),
+            info_of(source.brdf).name,
             SMX_MODEL_SHARED,
             0,
             device.name,
@@ -92,22 +150,29 @@ Rendered render_table(const RenderJob &job, const smx_scene &view, const smx_ren
 }
 
 // Into memory, or where there is a path, straight into that file.
-Rendered render(const RenderJob &job, const char *exr_path) {
-    smx_scene view = scene(job.flags, job.scene.displacement(), job.scene.light_degrees);
-    view.light = job.scene.uniform_light ? SMX_LIGHT_UNIFORM : SMX_LIGHT_DIRECTIONAL;
+Rendered render(RenderJob &job, const char *exr_path) {
+    Progress progress(1.0);
+    progress.start("rendering " + name_of(job.input), 1.0);
+    Source source;
+    std::optional<Chosen> chosen;
+    if (job.choose.is_asked_for())
+        chosen = choose(job, source);
+    else
+        source = open_source(job);
+
+    const smx_scene view = view_of(job);
     smx_render_options options = render_options(job.flags);
     options.errors = job.errors;
     options.exr_path = exr_path;
-    Progress progress(1.0);
     progress.attach(options);
-
-    progress.start("rendering " + name_of(job.input), 1.0);
-    Rendered rendered = job.is_filtered() ? render_filtered(job, view, options) : render_table(job, view, options);
+    Rendered rendered =
+        job.is_filtered() ? render_filtered(source, view, options) : render_table(job, source, view, options);
+    rendered.chosen = chosen;
     progress.finish();
     return rendered;
 }
 
-Rendered render_in_memory(const RenderJob &job, StagedFiles &files) {
+Rendered render_in_memory(RenderJob &job, StagedFiles &files) {
     Rendered rendered = render(job, nullptr);
     const smx_image image = rendered.rendering.image.get();
     files.write(job.out, [&](const auto &file) { check(smx_image_write_exr(image, file.c_str())); });
@@ -119,13 +184,13 @@ Rendered render_in_memory(const RenderJob &job, StagedFiles &files) {
     return rendered;
 }
 
-Rendered render_into_file(const RenderJob &job, StagedFiles &files) {
+Rendered render_into_file(RenderJob &job, StagedFiles &files) {
     Rendered rendered;
     files.write(job.out, [&](const auto &file) { rendered = render(job, file.c_str()); });
     return rendered;
 }
 
-void run(const RenderJob &job) {
+void run(RenderJob &job) {
     require_legal_usage(job);
     require_writable(job.out);
     if (job.png) require_writable(job.png_file());
@@ -150,8 +215,7 @@ void add_render(CLI::App &app) {
         ->type_name("");
     add_choice(*command, "--integrator", job->integrator, integrators,
                "The mixture widened by the surface, the measured table integrated over its facets, or rays against the "
-               "surface itself")
-        ->required();
+               "surface itself; needed unless --max-error or --max-seconds chooses");
     add_surface_flags(*command, job->scene);
     add_light_flag(*command, job->scene, true);
     add_fit_flags(*command, job->fit);
@@ -159,6 +223,7 @@ void add_render(CLI::App &app) {
     add_widening_flags(*command, job->flags);
     add_effect_flags(*command, job->flags);
     add_geometric_flags(*command, job->geometric);
+    add_choose_flags(*command, job->choose);
     command->add_option("--out", job->out, "The image to write")->required()->type_name("X.exr");
     command->add_flag("--errors", job->errors,
                       "Also write the reference's standard errors, as channels error.R, error.G, error.B");
@@ -174,6 +239,7 @@ void add_render(CLI::App &app) {
     command->callback([command, job] {
         job->lobes_given = command->count("--lobes") > 0;
         job->model_given = command->count("--model") > 0;
+        require_way(*command, *job);
         require_consistent_effects(*command, job->flags);
         note_flags_without_effect(*command, *job);
         if (job->is_geometric()) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "choose.h"
 #include "flags.h"
 #include "geometric_flags.h"
 #include "renderings.h"
@@ -18,7 +19,8 @@ constexpr Choice<Integrator> integrators[] = {
 
 struct RenderJob {
     std::string input, out;
-    Integrator integrator = Integrator::filtered;
+    Integrator integrator = Integrator::filtered; // where `choose` is asked for: what was chosen
+    ChooseFlags choose;
     SceneFlags scene;
     FitFlags fit;
     bool lobes_given = false, model_given = false;
@@ -47,6 +49,7 @@ struct Rendered {
     std::uint32_t devices = 1;
     double exposure = 1.0;                         // of the PNG
     std::optional<smx_effect_report> effects = {}; // of the filter: what is left out, and why
+    std::optional<Chosen> chosen = {};
 };
 
 void print_json(const RenderJob &job, const Rendered &rendered);

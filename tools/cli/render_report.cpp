@@ -79,6 +79,7 @@ void print_json(const RenderJob &job, const Rendered &rendered) {
     const smx_render_report &report = rendered.rendering.report;
     Json document = {{"version", SMX_VERSION_STRING}};
     document.update(configuration(job, rendered));
+    document["choice"] = rendered.chosen ? choice_json(*rendered.chosen, job.choose) : Json();
     document["out"] = job.out;
     document["png"] = job.png ? Json(job.png_file().string()) : Json();
     document["exposure"] = job.png ? Json(rendered.exposure) : Json();
@@ -101,6 +102,8 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
         for (int order : orders_of(report, rendered.lobes)) orders += ' ' + std::to_string(order);
         facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);
     }
+    if (rendered.chosen)
+        for (const auto &fact : choice_facts(*rendered.chosen)) facts.push_back(fact);
     facts.emplace_back("effects", effects_text(report.effects));
     if (rendered.effects) add_left_out(facts, *rendered.effects, rendered.lobes);
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
