@@ -757,8 +757,8 @@ SMX_API const float *smx_image_pixels(smx_image image);
  * the pixel's alpha, [height][width][4]. Owned by the image; NULL where there are none. They are those of a mean of
  * eight scrambles, or of a geometric reference's realisations: an interval is Student's, of 7 degrees of freedom, or of
  * one less than the realisations. Of 2000 trials with 4096 samples, intervals of 95 % of the statistical reference held
- * the converged value in 94.6 % (sobol) and 92.9 % (mis; 94 % of 7000 others): means are a little skewed
- * (tests/test_coverage.cpp). */
+ * the converged value in 94.6 % (sobol) and 92.9 % (mis; 94 % of 7000 others, of surfaces with two axes): means are a
+ * little skewed (tests/test_coverage.cpp). */
 SMX_API const float *smx_image_errors(smx_image image);
 
 /* Header attributes, written to EXR and read back. Keys: 1..255 characters, not one of EXR's own names. A rendered
