@@ -1,14 +1,11 @@
 // slopemix tradeoff: what is swept, what is written, what goes on from where, and what is refused.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "cli.h"
 #include "close.h"
 #include "files.h"
-#include "results.h"
 #include "support.h"
 
 using nlohmann::json;
@@ -133,22 +130,8 @@ TEST(CliTradeoff, TheTruthKnowsItsError) {
     EXPECT_CLOSE(truth.at("floor").get<double>(), 10.0 * error, 1e-12, 0.0);
     for (const json &point : report.at("points")) {
         EXPECT_EQ(point.at("at_floor"), point.at("relrmse").is_null());
-        if (!point.at("at_floor")) EXPECT_GT(point.at("relrmse").get<double>(), 10.0 * error);
-    }
-}
-
-// One sample takes all of a surface whose light comes from one slope: what is left is far below what can be told.
-TEST(CliTradeoff, WhatCannotBeToldIsAtTheFloor) {
-    const test::TempDir dir;
-    ASSERT_CLI_OK(test::cli(test::replaced(tradeoff(dir, {"--methods", "mis"}), "--samples", "65536")));
-    const json report = report_of(dir);
-    const json &point = point_named(report, "mis 65536");
-    if (point.at("at_floor")) {
-        EXPECT_TRUE(point.at("relrmse").is_null());
-        EXPECT_TRUE(point.at("psnr_db").is_null());
-        EXPECT_TRUE(point.at("max_error").is_null());
-    } else {
-        EXPECT_LE(report.at("truth").at("standard_error").get<double>(), 0.1 * point.at("relrmse").get<double>());
+        if (point.at("at_floor")) continue;
+        EXPECT_GT(point.at("relrmse").get<double>(), 10.0 * error);
     }
 }
 
@@ -159,8 +142,8 @@ TEST(CliTradeoff, GoesOnWhereItWasInterrupted) {
     test::CliSetting setting;
     setting.signal = SIGINT;
     setting.signal_when = [&] {
-        const std::string journal = test::read_file(cut / "tradeoff.partial.json");
-        return journal.find("sobol 16") != std::string::npos;
+        const std::string journal = cut / "tradeoff.partial.json";
+        return test::exists(journal) && test::read_file(journal).find("sobol 16") != std::string::npos;
     };
     const test::CliResult interrupted = test::cli(tradeoff(cut, lists), setting);
     ASSERT_EQ(interrupted.status, 1) << interrupted.err;
@@ -194,8 +177,7 @@ TEST(CliTradeoff, WrongUsageIsRefusedByName) {
         for (const std::string &value : values) EXPECT_CLI_FAILS(2, flag, tradeoff(dir, {flag, value}));
     for (const auto &[flag, values] : std::vector<std::pair<std::string, Arguments>>{
              {"--lobes", {"0", "1,1", ""}}, {"--widening-order", {"9", "1,1"}}, {"--samples", {"0", "x"}}})
-        for (const std::string &value : values)
-            EXPECT_CLI_FAILS(2, flag, test::replaced(tradeoff(dir), flag, value));
+        for (const std::string &value : values) EXPECT_CLI_FAILS(2, flag, test::replaced(tradeoff(dir), flag, value));
     EXPECT_CLI_FAILS(2, "nothing to sweep",
                      test::replaced(tradeoff(dir, {"--methods", "geometric,mis"}), "--samples", "1"));
     EXPECT_CLI_FAILS(2, "paint.json", Arguments{"tradeoff", "paint.json", "--out", dir.path()});

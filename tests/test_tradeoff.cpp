@@ -95,8 +95,11 @@ TEST(Tradeoff, PsnrIsOfThePeak) {
 TEST(Tradeoff, ParetoSetHasWhatNothingBeats) {
     TradeoffResult result;
     result.truth.error = 1e-4;
-    result.points = {sampled(Method::grid, 4, 0.5, 1.0), sampled(Method::grid, 16, 0.2, 4.0),
-                     sampled(Method::mis, 4, 0.2, 2.0), filtered(8, 0, 0.05, 0.1), filtered(1, 0, 0.3, 0.05),
+    result.points = {sampled(Method::grid, 4, 0.5, 1.0),
+                     sampled(Method::grid, 16, 0.2, 4.0),
+                     sampled(Method::mis, 4, 0.2, 2.0),
+                     filtered(8, 0, 0.05, 0.1),
+                     filtered(1, 0, 0.3, 0.05),
                      sampled(Method::mis, 64, 5e-4, 9.0), // at the floor, like the next, which is cheaper
                      sampled(Method::sobol, 64, 9e-4, 8.0)};
     EXPECT_EQ(names_of(pareto_set(result)),
@@ -126,9 +129,12 @@ TEST(Tradeoff, LawsComeBackFromTheirPoints) {
 
 TEST(Tradeoff, AFilterMeetsTheCheapestReferenceThatIsAsGood) {
     TradeoffResult result;
-    result.points = {sampled(Method::mis, 4, 0.2, 1.0), sampled(Method::mis, 64, 0.04, 2.0),
-                     sampled(Method::grid, 4096, 0.04, 3.0), sampled(Method::mis, 1024, 0.012, 5.0),
-                     filtered(1, 0, 0.3, 0.1), filtered(8, 0, 0.05, 0.5)};
+    result.points = {sampled(Method::mis, 4, 0.2, 1.0),
+                     sampled(Method::mis, 64, 0.04, 2.0),
+                     sampled(Method::grid, 4096, 0.04, 3.0),
+                     sampled(Method::mis, 1024, 0.012, 5.0),
+                     filtered(1, 0, 0.3, 0.1),
+                     filtered(8, 0, 0.05, 0.5)};
     const std::vector<const TradeoffPoint *> filters = chosen_filters(result);
     ASSERT_EQ(names_of(filters), (std::vector<std::string>{"per-lobe N=8 order 0"}));
     EXPECT_EQ(name_of(duel(result, *filters[0]).reference->configuration), "mis 64");

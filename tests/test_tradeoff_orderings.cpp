@@ -13,9 +13,9 @@ class TradeoffOrderings : public testing::Test {
     static void SetUpTestSuite() {
         const test::TempDir dir;
         // 65536 samples too, for the last of the tests.
-        const test::CliResult run = test::cli({"tradeoff", "builtin:two-layer", "--quick", "--samples", "65536",
-                                               "--methods", "grid,sobol,mis,shared,per-lobe", "--res", "64", "--json",
-                                               "--out", dir.path()});
+        const test::CliResult run =
+            test::cli({"tradeoff", "builtin:two-layer", "--quick", "--samples", "65536", "--methods",
+                       "grid,sobol,mis,shared,per-lobe", "--res", "64", "--json", "--out", dir.path()});
         ASSERT_CLI_OK(run);
         report_ = run.json();
     }

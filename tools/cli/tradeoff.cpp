@@ -120,7 +120,7 @@ void add_axes_flags(CLI::App &command, SweepAxes &axes) {
     };
     add_parsed(command, "--samples", axes.samples, parse_samples,
                "References at 1, 4, 16 ... samples per pixel, up to this many (default 65536; the geometric one to "
-               "4096 at most)")
+               "1024 at most)")
         ->type_name("N");
     add_parsed(command, "--lobes", axes.lobes, parse_lobe_counts, "Numbers of lobes (default 1,2,4,8,16)")
         ->type_name("N,...");

@@ -20,7 +20,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::uint32_t fewest_runs = 5, most_runs = 25;
 constexpr std::uint64_t enough_evaluations = 1u << 22; // of a point's runs, past the fewest: tens of milliseconds
-constexpr std::uint32_t truth_fewest = 1u << 16, truth_most = 1u << 20, base_truth_samples = 1u << 16;
+constexpr std::uint32_t truth_fewest = 1u << 16, truth_most = 1u << 20, base_truth_samples = 1u << 14;
 constexpr double truth_share = 0.1; // of the smallest error that is measured
 
 // In samples of the statistical reference, so that the progress moves evenly.
@@ -30,8 +30,11 @@ double work_of(const Configuration &configuration) {
     return configuration.samples * (configuration.method == Method::geometric ? path : 1.0);
 }
 
-double total_work(const std::vector<Configuration> &plan) {
-    double total = 2.0 * truth_most;
+// The first guess of it.
+std::uint32_t truth_samples(const SweepAxes &axes) { return std::clamp(4 * axes.samples, truth_fewest, truth_most); }
+
+double total_work(const SweepAxes &axes, const std::vector<Configuration> &plan) {
+    double total = 2.0 * truth_samples(axes);
     for (const Configuration &configuration : plan) total += work_of(configuration);
     return total;
 }
@@ -63,7 +66,7 @@ struct Runs {
 class Sweep {
   public:
     Sweep(const TradeoffJob &job, const std::vector<Configuration> &plan, TradeoffJournal &journal)
-        : job_(job), plan_(plan), journal_(journal), progress_(total_work(plan)), renderer_(job, progress_) {
+        : job_(job), plan_(plan), journal_(journal), progress_(total_work(job.axes, plan)), renderer_(job, progress_) {
         result_.device = info_of(renderer_.context()).name;
         result_.material = info_of(renderer_.brdf());
         journal_.open(plan_, result_);
@@ -103,8 +106,8 @@ class Sweep {
 
     void settle_truth() {
         if (result_.truth.image) return;
-        progress_.start("ground truth", 2.0 * truth_most);
-        std::uint32_t samples = std::clamp(16 * std::min(job_.axes.samples, truth_most), truth_fewest, truth_most);
+        progress_.start("ground truth", 2.0 * truth_samples(job_.axes));
+        std::uint32_t samples = truth_samples(job_.axes);
         result_.truth = renderer_.truth(samples);
         const double wanted = truth_share * finest_error();
         while (wanted > 0.0 && result_.truth.error > wanted && samples < truth_most)

@@ -10,6 +10,7 @@ namespace slopemix::cli {
 namespace {
 
 constexpr std::uint32_t realisations = GeometricFlags{}.realisations; // the fewest samples of that reference
+constexpr std::uint32_t geometric_most = 1024; // each costs it a hundred times what a sampler's does
 constexpr std::uint32_t variant_samples = 4096, variant_lobes = 8;
 
 constexpr Variant all_variants[] = {
@@ -22,7 +23,7 @@ constexpr Variant all_variants[] = {
 std::vector<Configuration> samplings(Method method, std::uint32_t most) {
     std::vector<Configuration> points;
     const bool is_geometric = method == Method::geometric;
-    if (is_geometric) most = std::min(most, geometric_spp);
+    if (is_geometric) most = std::min(most, geometric_most);
     for (std::uint64_t samples = is_geometric ? realisations : 1; samples <= most; samples *= 4) {
         const std::uint64_t taken = method == Method::mis ? std::max<std::uint64_t>(samples, 2) : samples;
         if (taken <= most) points.push_back({method, static_cast<std::uint32_t>(taken)});

@@ -58,7 +58,7 @@ std::optional<Configuration> chosen_filter(const std::vector<Configuration> &pla
 std::optional<Configuration> chosen_reference(const std::vector<Configuration> &plan);
 
 // The samplers at 1, 4, 16 ... samples, mis at 2 in place of 1, which it cannot take; the geometric reference at 16, 64
-// ... 4096; the filter at all numbers of lobes and all orders; then the variants of one reference and of one filter.
+// ... 1024; the filter at all numbers of lobes and all orders; then the variants of one reference and of one filter.
 std::vector<Configuration> plan_of(const SweepAxes &axes);
 
 } // namespace slopemix::cli

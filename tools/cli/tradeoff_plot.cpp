@@ -13,8 +13,6 @@ namespace slopemix::cli {
 
 namespace {
 
-using Rows = std::vector<std::vector<double>>;
-
 struct Style {
     const char *colour;
     int point;
@@ -25,9 +23,9 @@ struct Style {
 Style style_of(Method method) {
     switch (method) {
         case Method::grid:
-            return {"#777777", 4, "0.9,0.5"};
+            return {"#777777", 4, "-0.9,-0.5"};
         case Method::sobol:
-            return {"#009e73", 8, "-0.9,-0.6"};
+            return {"#009e73", 8, "-0.9,-0.5"};
         case Method::mis:
             return {"#0072b2", 6, "0.9,0.5"};
         case Method::geometric:
@@ -40,87 +38,148 @@ Style style_of(Method method) {
     return {"#000000", 1, "0,0"};
 }
 
-using Wanted = std::function<bool(const Configuration &)>;
+std::string place(double left, double right) {
+    return "set lmargin at screen " + fixed(left, 4) + "\nset rmargin at screen " + fixed(right, 4) +
+           "\nset bmargin at screen 0.53\nset tmargin at screen 0.91\n";
+}
 
-// time, error, label's number
-Rows rows_of(const TradeoffResult &result, const Wanted &is_wanted) {
-    Rows rows;
-    for (const TradeoffPoint &point : result.points) {
-        const Configuration &c = point.configuration;
-        if (!is_wanted(c)) continue;
-        rows.push_back({point.measured.kernel_seconds.median, error_bound(point.measured, result.truth),
-                        static_cast<double>(is_filtered(c.method) ? c.lobes : c.samples)});
+// A chart of error against time, which grows with the curves that are added.
+class Chart {
+  public:
+    Chart(std::string name, double left, double right) : name_(std::move(name)), left_(left), right_(right) {}
+
+    // Adds the points that are wanted as data, and returns the block's name; empty if there are none.
+    std::string add(const TradeoffResult &result, const std::function<bool(const Configuration &)> &is_wanted) {
+        std::vector<std::vector<double>> rows;
+        for (const TradeoffPoint &point : result.points)
+            if (is_wanted(point.configuration)) rows.push_back(row_of(point, result.truth));
+        return add_rows(rows);
     }
-    return rows;
-}
+    std::string add(const std::vector<const TradeoffPoint *> &points, const GroundTruth &truth) {
+        std::vector<std::vector<double>> rows;
+        for (const TradeoffPoint *point : points) rows.push_back(row_of(*point, truth));
+        return add_rows(rows);
+    }
 
-std::string place(double left, double right, double bottom, double top) {
-    const auto margin = [](const char *side, double at) {
-        return std::string("set ") + side + "margin at screen " + fixed(at, 4) + '\n';
+    // A height that is to be in view.
+    std::string level(double error) {
+        if (error > 0.0) error_.see(error);
+        return chart_number(error);
+    }
+
+    void draw(const std::string &what) { plot_ += (plot_.empty() ? "plot " : ", ") + what; }
+
+    // Lines and points with their number of samples or lobes, and an entry of the key.
+    void draw_curve(const std::string &data, const Style &style, const std::string &title) {
+        const std::string colour = std::string(" '") + style.colour + '\'';
+        draw(data + " using 1:2 with linespoints linewidth 1.4 pointtype " + std::to_string(style.point) +
+             " pointsize 0.55 linecolor" + colour + (title.empty() ? "" : " title " + chart_text(title)));
+        draw(data + " using 1:2:(sprintf('%g',$3)) with labels font ',8' textcolor" + colour + " offset " +
+             style.label_offset);
+    }
+
+    bool is_empty() const { return plot_.empty(); }
+
+    std::string script(const std::string &title) const {
+        return data_ + place(left_, right_) + "set title " + chart_text("{/:Bold " + title + '}') +
+               "\nset logscale xy\nset format xy '10^{%T}'\nset xlabel 'seconds on the device, per image'\n"
+               "set ylabel 'relRMSE against the truth'\nset key at screen " +
+               fixed(left_, 4) + ", screen 0.462 left top Left reverse horizontal maxcols 4 width -2\n" +
+               range("x", time_) + range("y", error_) + plot_ + '\n';
+    }
+
+  private:
+    struct Extent {
+        double low = HUGE_VAL, high = 0.0;
+        void see(double value) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
     };
-    return margin("l", left) + margin("r", right) + margin("b", bottom) + margin("t", top);
-}
 
-std::string axes(const std::string &title) {
-    return "set title " + chart_text("{/:Bold " + title + '}') +
-           "\nset logscale xy\nset format xy '10^{%T}'\nset xlabel 'seconds on the device, per image'\n"
-           "set ylabel 'relRMSE against the truth'\nset offsets graph 0.03, graph 0.05, graph 0.05, graph 0.05\n";
-}
+    static std::vector<double> row_of(const TradeoffPoint &point, const GroundTruth &truth) {
+        const Configuration &c = point.configuration;
+        return {point.measured.kernel_seconds.median, error_bound(point.measured, truth),
+                static_cast<double>(is_filtered(c.method) ? c.lobes : c.samples)};
+    }
 
-// A line with its points, and their labels.
-std::string curve(const std::string &data, const Style &style, const std::string &colour, const std::string &title) {
-    return '$' + data + " using 1:2 with linespoints linewidth 1.4 pointtype " + std::to_string(style.point) +
-           " pointsize 0.55 linecolor '" + colour + "' title " + chart_text(title) + ", $" + data +
-           " using 1:2:(sprintf('%g',$3)) with labels font ',8' textcolor '" + colour + "' offset " +
-           style.label_offset;
-}
+    std::string add_rows(const std::vector<std::vector<double>> &rows) {
+        if (rows.empty()) return "";
+        for (const std::vector<double> &row : rows) {
+            time_.see(row[0]);
+            error_.see(row[1]);
+        }
+        const std::string data = name_ + std::to_string(count_++);
+        data_ += chart_data(data, rows);
+        return '$' + data;
+    }
+
+    // With room for the labels, and not rounded to whole decades.
+    static std::string range(const char *axis, Extent extent) {
+        return std::string("set ") + axis + "range [" + chart_number(extent.low / 1.7) + ':' +
+               chart_number(extent.high * 1.7) + "]\n";
+    }
+
+    std::string name_, data_, plot_;
+    double left_, right_;
+    int count_ = 0;
+    Extent time_, error_;
+};
 
 // All methods as they are by default, the filter in closed form.
 std::string methods_chart(const TradeoffResult &result) {
-    Rows front;
-    for (const TradeoffPoint *point : pareto_set(result))
-        front.push_back({point->measured.kernel_seconds.median, error_bound(point->measured, result.truth)});
-    std::string data = chart_data("front", front);
-    std::string plot =
-        "plot $front using 1:2 with lines linewidth 9 linecolor '#e8e4b0' title 'Pareto set, all points'";
+    Chart chart("methods", 0.055, 0.575);
+    chart.draw(chart.add(pareto_set(result), result.truth) +
+               " using 1:2 with lines linewidth 9 linecolor '#ece7b4' title 'Pareto set of all points'");
     for (const auto &[word, method] : methods) {
-        const Rows rows = rows_of(result, [&, method = method](const Configuration &c) {
+        const std::string data = chart.add(result, [&, method = method](const Configuration &c) {
             return c.method == method && c.is_as_is() && (!is_filtered(method) || c.order == 0);
         });
-        if (rows.empty()) continue;
-        const std::string name = std::string("m") + std::to_string(static_cast<int>(method));
-        data += chart_data(name, rows);
-        plot += ", " +
-                curve(name, style_of(method), style_of(method).colour,
-                      is_filtered(method) ? std::string(word) + ", order 0, by N" : std::string(word) + ", by samples");
+        if (data.empty()) continue;
+        chart.draw_curve(data, style_of(method),
+                         std::string(word) + (is_filtered(method) ? ", order 0, by N" : ", by samples"));
     }
-    const std::string floor = chart_number(floor_of(result.truth));
-    plot += ", " + floor +
-            " with lines dashtype 3 linewidth 1 linecolor '#555555' title 'floor: ten times the truth’s own error'";
-    return data + place(0.055, 0.575, 0.475, 0.90) + axes("All methods") +
-           "set key at graph 0.99, graph 0.99 right top Left reverse\n" + plot + "\n";
+    chart.draw(chart.level(floor_of(result.truth)) +
+               " with lines dashtype 3 linewidth 1 linecolor '#555555' title 'floor: ten times the truth’s error'");
+    return chart.script("All methods");
 }
 
-// The filter by model and order.
+std::vector<std::int32_t> orders_of(const TradeoffResult &result, Method method) {
+    std::vector<std::int32_t> orders;
+    for (const TradeoffPoint &point : result.points) {
+        const Configuration &c = point.configuration;
+        if (c.method == method && std::find(orders.begin(), orders.end(), c.order) == orders.end())
+            orders.push_back(c.order);
+    }
+    return orders;
+}
+
+const TradeoffPoint *last_of(const TradeoffResult &result, Method method, std::int32_t order) {
+    const TradeoffPoint *last = nullptr;
+    for (const TradeoffPoint &point : result.points) {
+        const Configuration &c = point.configuration;
+        if (c.method == method && c.order == order && c.is_as_is()) last = &point;
+    }
+    return last;
+}
+
+// The filter by model and order, a curve over N for each; the order stands at its end.
 std::string orders_chart(const TradeoffResult &result) {
-    std::string data, plot;
-    for (const auto &[word, method] : methods) {
-        std::vector<std::int32_t> orders;
-        for (const TradeoffPoint &point : result.points)
-            if (point.configuration.method == method && is_filtered(method) && point.configuration.is_as_is() &&
-                std::find(orders.begin(), orders.end(), point.configuration.order) == orders.end())
-                orders.push_back(point.configuration.order);
-        for (const std::int32_t order : orders) {
-            const std::string name = "o" + std::to_string(static_cast<int>(method)) + "_" + std::to_string(order + 1);
-            data += chart_data(name, rows_of(result, [&, method = method](const Configuration &c) {
-                                   return c.method == method && c.order == order && c.is_as_is();
-                               }));
-            plot += (plot.empty() ? "plot " : ", ") + curve(name, style_of(method), style_of(method).colour,
-                                                            std::string(word) + ", order " + std::to_string(order));
+    Chart chart("orders", 0.645, 0.975);
+    for (const Method method : {Method::shared, Method::per_lobe}) {
+        bool is_first = true;
+        for (const std::int32_t order : orders_of(result, method)) {
+            const std::string data = chart.add(
+                result, [&](const Configuration &c) { return c.method == method && c.order == order && c.is_as_is(); });
+            chart.draw_curve(data, style_of(method),
+                             is_first ? std::string(word_for(method, methods)) + ", a curve per order, by N" : "");
+            chart.draw(chart.add({last_of(result, method, order)}, result.truth) + " using 1:2:('order " +
+                       widening_text(order) + "') with labels left font ',8' textcolor '" + style_of(method).colour +
+                       "' offset 0.8,0.0");
+            is_first = false;
         }
     }
-    if (plot.empty()) return "";
-    return data + place(0.645, 0.985, 0.475, 0.90) + axes("The filter, by order and N") + plot + "\n";
+    return chart.is_empty() ? "" : chart.script("The filter, by order and N");
 }
 
 } // namespace
@@ -134,16 +193,15 @@ std::vector<TradeoffPoint> strip_of(const TradeoffResult &result) {
     return strip;
 }
 
-std::string tradeoff_charts(const TradeoffResult &result) { return methods_chart(result) + orders_chart(result); }
-
 std::string plot_tradeoff(const TradeoffJob &job, const TradeoffResult &result) {
     const std::string heading = std::string(result.material.name) + ": what accuracy costs in time. Surface " +
                                 general(job.alpha.first, 4) + ", " + general(job.alpha.second, 4) + ", light at " +
                                 general(job.light_degrees, 4) + "°, " + std::to_string(job.flags.resolution.width) +
                                 " × " + std::to_string(job.flags.resolution.height) + " pixels";
     return run_gnuplot(chart_head(page_width, page_height) + "set multiplot\nset label 1 " + chart_text(heading) +
-                       " at screen 0.02, screen 0.965 noenhanced font ',20' textcolor '#111111'\n" +
-                       tradeoff_charts(result) + "unset label 1\n" + tradeoff_strip(result) + "unset multiplot\n");
+                       " at screen 0.02, screen 0.97 noenhanced font ',20' textcolor '#111111'\n" +
+                       methods_chart(result) + "unset label 1\n" + orders_chart(result) + tradeoff_strip(result) +
+                       "unset multiplot\n");
 }
 
 } // namespace slopemix::cli

@@ -14,9 +14,8 @@ std::vector<TradeoffPoint> strip_of(const TradeoffResult &result);
 // Throws CommandError if gnuplot cannot be run.
 std::string plot_tradeoff(const TradeoffJob &job, const TradeoffResult &result);
 
-// The charts and the strip alone, as parts of gnuplot's script for a page of this size in pixels.
-inline constexpr int page_width = 1500, page_height = 1210;
-std::string tradeoff_charts(const TradeoffResult &result);
+// The strip alone, as a part of gnuplot's script for a page of this size in pixels.
+inline constexpr int page_width = 1500, page_height = 1230;
 std::string tradeoff_strip(const TradeoffResult &result);
 
 } // namespace slopemix::cli

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t most_pixels = 256; // a side of a picture in the strip; larger images are thinned
 constexpr double left = 0.02, side = 185.0 / page_width, gap = 12.0 / page_width;
-constexpr double tall = 185.0 / page_height, image_top = 0.37, map_top = image_top - tall - 0.012;
+constexpr double tall = 185.0 / page_height, image_top = 0.355, map_top = image_top - tall - 0.012;
 
 // column, row, red, green, blue of the display, and |image - truth| as mean over the channels, relative to what is
 // bright in the truth.
@@ -53,13 +53,22 @@ std::string caption(std::size_t column, double at, const std::string &text) {
            " center noenhanced font ',11' textcolor '#333333'\n";
 }
 
+// Beneath the truth, which has no map: what the maps' colours say.
+std::string colour_bar(std::size_t column) {
+    const double at = left + static_cast<double>(column) * (side + gap);
+    return "set colorbox horizontal user origin screen " + fixed(at, 5) + ", screen " + fixed(map_top - 0.06, 5) +
+           " size screen " + fixed(side, 5) +
+           ", screen 0.016\nset cbtics nomirror\n"
+           "set cblabel \"|image − truth|,\\n1 being the truth’s 99th percentile\"\n";
+}
+
 std::string error_text(const TradeoffPoint &point, const GroundTruth &truth) {
     return (is_at_floor(point.measured, truth) ? "relRMSE < " : "relRMSE ") +
            general(error_bound(point.measured, truth), 2);
 }
 
 std::string time_text(double seconds) {
-    return seconds < 1.0 ? general(1e3 * seconds, 2) + " ms" : general(seconds, 2) + " s";
+    return seconds < 0.1 ? general(1e3 * seconds, 2) + " ms" : general(seconds, 2) + " s";
 }
 
 } // namespace
@@ -69,21 +78,23 @@ std::string tradeoff_strip(const TradeoffResult &result) {
     std::string script =
         "unset key\nunset title\nunset xlabel\nunset ylabel\nunset logscale\nunset border\nunset tics\n"
         "unset grid\nset offsets\nset xrange [*:*] noextend\nset yrange [*:*] noextend reverse\n"
-        "set logscale cb\nset cbrange [1e-3:1]\nset format cb '10^{%T}'\n"
+        "set logscale cb\nset cbrange [1e-4:1]\nset format cb '10^{%T}'\n"
         "set palette defined (0 '#fffff5', 0.35 '#fecc5c', 0.7 '#e31a1c', 1 '#400020')\n";
     std::size_t column = 0;
-    const auto picture = [&](const Image &image, const std::string &above, const std::string &beneath, bool is_truth) {
+    const auto picture = [&](const Image &image, const std::string &above, const std::string &beneath) {
         const std::string name = "strip" + std::to_string(column);
         script += pixels(name, image, result.truth.image, bright) + "unset colorbox\n" +
                   caption(column, image_top + 0.012, above) + place(column, image_top) + "plot $" + name +
                   " using 1:2:3:4:5 with rgbimage\n" + caption(column, map_top - tall - 0.012, beneath);
-        if (!is_truth) script += place(column, map_top) + "plot $" + name + " using 1:2:6 with image\n";
+        if (column + 1 == result.strip.size()) script += colour_bar(result.strip.size());
+        if (column < result.strip.size())
+            script += place(column, map_top) + "plot $" + name + " using 1:2:6 with image\n";
         ++column;
     };
     for (const auto &[point, image] : result.strip)
         picture(image, name_of(point.configuration) + ", " + time_text(point.measured.kernel_seconds.median),
-                error_text(point, result.truth), false);
-    picture(result.truth.image, "truth, 2 × " + std::to_string(result.truth.samples) + " samples", "", true);
+                error_text(point, result.truth));
+    picture(result.truth.image, "truth, 2 × " + std::to_string(result.truth.samples) + " samples", "");
     return script;
 }
 
