@@ -124,14 +124,18 @@ TEST(CliKill, Tradeoff) {
             errors.push_back({point.at("name"), point.at("relrmse"), point.at("noise"), point.at("widening")});
         return errors;
     };
-    const test::TempDir whole, killed;
+    const test::TempDir whole;
     const auto start = Clock::now();
     ASSERT_CLI_OK(test::cli(tradeoff(whole)));
+    const double seconds = seconds_since(start);
     test::Random random(84);
-    run_killed(tradeoff(killed), killed, seconds_since(start), random);
-    EXPECT_EQ(killed.names(), whole.names());
-    EXPECT_EQ(errors_in(killed), errors_in(whole));
-    EXPECT_EQ(test::read_file(killed / "truth.exr"), test::read_file(whole / "truth.exr"));
+    for (int kills = 0; kills < 4;) {
+        const test::TempDir dir;
+        kills += run_killed(tradeoff(dir), dir, seconds, random);
+        ASSERT_EQ(dir.names(), whole.names());
+        EXPECT_EQ(errors_in(dir), errors_in(whole));
+        EXPECT_EQ(test::read_file(dir / "truth.exr"), test::read_file(whole / "truth.exr"));
+    }
 }
 
 TEST(CliKill, Sheet) { expect_survives_kills("sheet", sheet, 4); }
