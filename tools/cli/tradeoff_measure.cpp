@@ -51,8 +51,9 @@ Spread spread(std::vector<double> values) {
     return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
-// Depends on no time, so that the errors do not.
-std::uint32_t run_count(std::uint64_t evaluations) {
+// Depends on no time, so that the errors do not. The geometric reference makes its surfaces anew for every run.
+std::uint32_t run_count(Method method, std::uint64_t evaluations) {
+    if (method == Method::geometric) return fewest_runs;
     const std::uint64_t count = enough_evaluations / std::max<std::uint64_t>(evaluations, 1);
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(count, fewest_runs, most_runs));
 }
@@ -124,7 +125,7 @@ class Sweep {
         Rendering rendering = renderer_.render(configuration, 0); // warms up
         Measurement measured;
         measured.evaluations = rendering.report.evaluations;
-        measured.runs = run_count(measured.evaluations);
+        measured.runs = run_count(configuration.method, measured.evaluations);
         Runs runs;
         for (std::uint32_t run = 1; run <= measured.runs; ++run) {
             progress_.start(name, work_of(configuration) / measured.runs);

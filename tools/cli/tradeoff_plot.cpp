@@ -1,4 +1,4 @@
-// The page: a title, error against time for all methods, the filter's orders by themselves, and the strip.
+// The page: a title, error against time for all methods, the widening by itself, and the strip.
 #include "tradeoff_plot.h"
 
 #include <algorithm>
@@ -48,17 +48,19 @@ class Chart {
   public:
     Chart(std::string name, double left, double right) : name_(std::move(name)), left_(left), right_(right) {}
 
-    // Adds the points that are wanted as data, and returns the block's name; empty if there are none.
-    std::string add(const TradeoffResult &result, const std::function<bool(const Configuration &)> &is_wanted) {
-        std::vector<std::vector<double>> rows;
-        for (const TradeoffPoint &point : result.points)
-            if (is_wanted(point.configuration)) rows.push_back(row_of(point, result.truth));
-        return add_rows(rows);
-    }
-    std::string add(const std::vector<const TradeoffPoint *> &points, const GroundTruth &truth) {
-        std::vector<std::vector<double>> rows;
-        for (const TradeoffPoint *point : points) rows.push_back(row_of(*point, truth));
-        return add_rows(rows);
+    // A point as time, error and the number that is its label.
+    using Row = std::vector<double>;
+
+    // Adds data, and returns the block's name; empty if there are none.
+    std::string add(const std::vector<Row> &rows) {
+        if (rows.empty()) return "";
+        for (const Row &row : rows) {
+            time_.see(row[0]);
+            error_.see(row[1]);
+        }
+        const std::string data = name_ + std::to_string(count_++);
+        data_ += chart_data(data, rows);
+        return '$' + data;
     }
 
     // A height that is to be in view.
@@ -69,23 +71,25 @@ class Chart {
 
     void draw(const std::string &what) { plot_ += (plot_.empty() ? "plot " : ", ") + what; }
 
-    // Lines and points with their number of samples or lobes, and an entry of the key.
-    void draw_curve(const std::string &data, const Style &style, const std::string &title) {
+    // Lines and points with their labels, and an entry of the key.
+    void draw_curve(const std::string &data, const Style &style, const std::string &title,
+                    const std::string &prefix = "") {
         const std::string colour = std::string(" '") + style.colour + '\'';
         draw(data + " using 1:2 with linespoints linewidth 1.4 pointtype " + std::to_string(style.point) +
              " pointsize 0.55 linecolor" + colour + (title.empty() ? "" : " title " + chart_text(title)));
-        draw(data + " using 1:2:(sprintf('%g',$3)) with labels font ',8' textcolor" + colour + " offset " +
-             style.label_offset);
+        draw(data + " using 1:2:(sprintf('" + prefix + "%g',$3)) with labels font ',8' textcolor" + colour +
+             " offset " + style.label_offset);
     }
 
     bool is_empty() const { return plot_.empty(); }
 
-    std::string script(const std::string &title) const {
+    std::string script(const std::string &title, const std::string &error) const {
         return data_ + place(left_, right_) + "set title " + chart_text("{/:Bold " + title + '}') +
                "\nset logscale xy\nset format xy '10^{%T}'\nset xlabel 'seconds on the device, per image'\n"
-               "set ylabel 'relRMSE against the truth'\nset key at screen " +
-               fixed(left_, 4) + ", screen 0.462 left top Left reverse horizontal maxcols 4 width -2\n" +
-               range("x", time_) + range("y", error_) + plot_ + '\n';
+               "set ylabel " +
+               chart_text(error) + "\nset key at screen " + fixed(left_, 4) +
+               ", screen 0.462 left top Left reverse horizontal maxcols 4 width -2\n" + range("x", time_) +
+               range("y", error_) + plot_ + '\n';
     }
 
   private:
@@ -96,23 +100,6 @@ class Chart {
             high = std::max(high, value);
         }
     };
-
-    static std::vector<double> row_of(const TradeoffPoint &point, const GroundTruth &truth) {
-        const Configuration &c = point.configuration;
-        return {point.measured.kernel_seconds.median, error_bound(point.measured, truth),
-                static_cast<double>(is_filtered(c.method) ? c.lobes : c.samples)};
-    }
-
-    std::string add_rows(const std::vector<std::vector<double>> &rows) {
-        if (rows.empty()) return "";
-        for (const std::vector<double> &row : rows) {
-            time_.see(row[0]);
-            error_.see(row[1]);
-        }
-        const std::string data = name_ + std::to_string(count_++);
-        data_ += chart_data(data, rows);
-        return '$' + data;
-    }
 
     // With room for the labels, and not rounded to whole decades.
     static std::string range(const char *axis, Extent extent) {
@@ -126,60 +113,95 @@ class Chart {
     Extent time_, error_;
 };
 
-// All methods as they are by default, the filter in closed form.
+using Rows = std::vector<Chart::Row>;
+using Wanted = std::function<bool(const Configuration &)>;
+
+// Error against the measured table, labelled with samples or lobes.
+Rows rows_of(const TradeoffResult &result, const Wanted &is_wanted) {
+    Rows rows;
+    for (const TradeoffPoint &point : result.points) {
+        const Configuration &c = point.configuration;
+        if (c.is_as_is() && is_wanted(c))
+            rows.push_back({point.measured.kernel_seconds.median, error_bound(point.measured, result.truth),
+                            static_cast<double>(is_filtered(c.method) ? c.lobes : c.samples)});
+    }
+    return rows;
+}
+
+Rows rows_of_front(const TradeoffResult &result) {
+    Rows rows;
+    for (const TradeoffPoint *point : pareto_set(result))
+        rows.push_back({point->measured.kernel_seconds.median, error_bound(point->measured, result.truth), 0.0});
+    return rows;
+}
+
+// All methods as they are by default; of the filter the closed form by N, and the orders of the chosen one.
 std::string methods_chart(const TradeoffResult &result) {
     Chart chart("methods", 0.055, 0.575);
-    chart.draw(chart.add(pareto_set(result), result.truth) +
+    chart.draw(chart.add(rows_of_front(result)) +
                " using 1:2 with lines linewidth 9 linecolor '#ece7b4' title 'Pareto set of all points'");
     for (const auto &[word, method] : methods) {
-        const std::string data = chart.add(result, [&, method = method](const Configuration &c) {
-            return c.method == method && c.is_as_is() && (!is_filtered(method) || c.order == 0);
-        });
+        const std::string data = chart.add(rows_of(result, [&, method = method](const Configuration &c) {
+            return c.method == method && (!is_filtered(method) || c.order == 0);
+        }));
         if (data.empty()) continue;
         chart.draw_curve(data, style_of(method),
                          std::string(word) + (is_filtered(method) ? ", order 0, by N" : ", by samples"));
     }
+    Rows orders;
+    for (const TradeoffPoint *filter : chosen_filters(result))
+        if (filter->configuration.order > 0)
+            orders.push_back({filter->measured.kernel_seconds.median, error_bound(filter->measured, result.truth),
+                              static_cast<double>(filter->configuration.order)});
+    if (!orders.empty()) {
+        const Configuration chosen = chosen_filters(result).front()->configuration;
+        chart.draw_curve(
+            chart.add(orders), {"#8b2500", 5, "0.0,0.8"},
+            std::string(word_for(chosen.method, methods)) + ", N = " + std::to_string(chosen.lobes) + ", by order (o)",
+            "o");
+    }
     chart.draw(chart.level(floor_of(result.truth)) +
                " with lines dashtype 3 linewidth 1 linecolor '#555555' title 'floor: ten times the truth’s error'");
-    return chart.script("All methods");
+    return chart.script("All methods", "relRMSE against the measured table");
 }
 
-std::vector<std::int32_t> orders_of(const TradeoffResult &result, Method method) {
-    std::vector<std::int32_t> orders;
+// Error against the fitted base, labelled with the order.
+Rows rows_of_widening(const TradeoffResult &result, Method method, std::uint32_t lobes) {
+    Rows rows;
     for (const TradeoffPoint &point : result.points) {
         const Configuration &c = point.configuration;
-        if (c.method == method && std::find(orders.begin(), orders.end(), c.order) == orders.end())
-            orders.push_back(c.order);
+        if (c.is_as_is() && c.method == method && c.lobes == lobes && c.order >= 0 && point.measured.widening)
+            rows.push_back(
+                {point.measured.kernel_seconds.median, *point.measured.widening, static_cast<double>(c.order)});
     }
-    return orders;
+    return rows;
 }
 
-const TradeoffPoint *last_of(const TradeoffResult &result, Method method, std::int32_t order) {
-    const TradeoffPoint *last = nullptr;
-    for (const TradeoffPoint &point : result.points) {
-        const Configuration &c = point.configuration;
-        if (c.method == method && c.order == order && c.is_as_is()) last = &point;
+// The filter's widening alone, a curve over the orders for each N; beside it the references, whose noise is the same
+// for any table.
+std::string widening_chart(const TradeoffJob &job, const TradeoffResult &result) {
+    const std::vector<const TradeoffPoint *> filters = chosen_filters(result);
+    if (filters.empty()) return "";
+    const Method method = filters.front()->configuration.method;
+    const std::vector<std::string> shades = chart_shades(job.axes.lobes.size());
+    Chart chart("widening", 0.645, 0.975);
+    for (const Method sampler : {Method::grid, Method::sobol, Method::mis}) {
+        const std::string data =
+            chart.add(rows_of(result, [&](const Configuration &c) { return c.method == sampler; }));
+        if (!data.empty())
+            chart.draw(data + " using 1:2 with linespoints linewidth 1 pointsize 0.4 pointtype " +
+                       std::to_string(style_of(sampler).point) + " linecolor '#bbbbbb' title '" +
+                       word_for(sampler, methods) + '\'');
     }
-    return last;
-}
-
-// The filter by model and order, a curve over N for each; the order stands at its end.
-std::string orders_chart(const TradeoffResult &result) {
-    Chart chart("orders", 0.645, 0.975);
-    for (const Method method : {Method::shared, Method::per_lobe}) {
-        bool is_first = true;
-        for (const std::int32_t order : orders_of(result, method)) {
-            const std::string data = chart.add(
-                result, [&](const Configuration &c) { return c.method == method && c.order == order && c.is_as_is(); });
-            chart.draw_curve(data, style_of(method),
-                             is_first ? std::string(word_for(method, methods)) + ", a curve per order, by N" : "");
-            chart.draw(chart.add({last_of(result, method, order)}, result.truth) + " using 1:2:('order " +
-                       widening_text(order) + "') with labels left font ',8' textcolor '" + style_of(method).colour +
-                       "' offset 0.8,0.0");
-            is_first = false;
-        }
+    for (std::size_t k = 0; k < shades.size(); ++k) {
+        const std::string data = chart.add(rows_of_widening(result, method, job.axes.lobes[k]));
+        if (data.empty()) continue; // of auto alone, which is no order
+        chart.draw_curve(
+            data, {shades[k].c_str(), 7, k % 2 == 0 ? "-0.9,-0.4" : "0.9,0.4"},
+            std::string(word_for(method, methods)) + ", N = " + std::to_string(job.axes.lobes[k]) + ", by order");
     }
-    return chart.is_empty() ? "" : chart.script("The filter, by order and N");
+    if (chart.is_empty()) return "";
+    return chart.script("The widening, by order", "relRMSE against the fitted base");
 }
 
 } // namespace
@@ -200,8 +222,8 @@ std::string plot_tradeoff(const TradeoffJob &job, const TradeoffResult &result) 
                                 " × " + std::to_string(job.flags.resolution.height) + " pixels";
     return run_gnuplot(chart_head(page_width, page_height) + "set multiplot\nset label 1 " + chart_text(heading) +
                        " at screen 0.02, screen 0.97 noenhanced font ',20' textcolor '#111111'\n" +
-                       methods_chart(result) + "unset label 1\n" + orders_chart(result) + tradeoff_strip(result) +
-                       "unset multiplot\n");
+                       methods_chart(result) + "unset label 1\n" + widening_chart(job, result) +
+                       tradeoff_strip(result) + "unset multiplot\n");
 }
 
 } // namespace slopemix::cli
