@@ -14,6 +14,7 @@ struct Wanted {
 Wanted reference() {
     const smx_scene scene = reference_scene();
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.spp = 1024;
     smx_image image = nullptr;
     smx_render_report report = SMX_RENDER_REPORT_INIT;

@@ -34,6 +34,7 @@ void measure(benchmark::State &state, Render render) {
 
 smx_render_options reference_options(smx_sampler sampler) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.sampler = sampler;
     options.spp = 4096;
     return options;
@@ -57,6 +58,7 @@ BENCHMARK_CAPTURE(reference, mis, SMX_SAMPLER_MIS, 1)->Name("reference.full.mis"
 void geometric(benchmark::State &state, uint32_t bounces) {
     const smx_scene scene = bench_scene(128);
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.spp = 256;
     smx_geometric_options how = SMX_GEOMETRIC_OPTIONS_INIT;
     how.realisations = 2;

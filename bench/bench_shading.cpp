@@ -15,6 +15,7 @@ namespace {
 smx_render_report render(smx_material material, smx_grade grade, std::vector<float> *rgba = nullptr) {
     const smx_scene scene = shading_scene();
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.grade = grade;
     smx_image image = nullptr;
     smx_render_report report = SMX_RENDER_REPORT_INIT;

@@ -6,6 +6,7 @@
 
 #include "boundary.h"
 #include "brdf.h"
+#include "choose_effects.h"
 #include "context.h"
 #include "image.h"
 #include "material.h"
@@ -32,7 +33,9 @@ struct smx_density_s : smx::Handle<const smx::DensityOfBrdf> {
     using Handle::Handle;
 };
 struct smx_material_s : smx::Handle<const smx::Material> {
-    using Handle::Handle;
+    explicit smx_material_s(std::shared_ptr<const smx::Material> material)
+        : Handle(material), effects(std::make_shared<smx::EffectChoices>(std::move(material))) {}
+    std::shared_ptr<smx::EffectChoices> effects;
 };
 struct smx_image_s : smx::Handle<smx::Image> {
     using Handle::Handle;

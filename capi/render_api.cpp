@@ -5,51 +5,31 @@
 #include "integrate_geometric.h"
 #include "integrate_reference.h"
 #include "shade_filtered.h"
+#include "to_cpp.h"
 
 using namespace smx;
 
 namespace {
 
-Displacement to_cpp(const smx_displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
+using smx::to_cpp;
 
 smx_displacement to_c(const Displacement &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y}; }
 
-Scene to_cpp(const smx_scene &s) {
-    return {s.width,
-            s.height,
-            s.light_phi,
-            to_cpp(s.displacement),
-            static_cast<Masking>(s.masking),
-            static_cast<Light>(s.light)};
-}
-
-GeometricOptions to_cpp(const smx_geometric_options &g) {
-    return {g.tile, g.realisations, g.masking != 0, g.shadowing != 0, g.bounces};
-}
-
-RenderOptions to_cpp(const smx_render_options &o) {
-    RenderOptions out;
-    out.sampler = static_cast<Sampler>(o.sampler);
-    out.spp = o.spp;
-    out.seed = o.seed;
-    out.lookup = static_cast<Lookup>(o.lookup);
-    out.target_error = o.target_error;
-    out.grade = static_cast<Grade>(o.grade);
-    out.widening_order = o.widening_order;
-    out.widening_tolerance = o.widening_tolerance;
-    out.errors = o.errors != 0;
-    out.whole_table = o.whole_table != 0;
-    if (o.exr_path) out.exr_path = o.exr_path;
-    require(!o.exr_path || *o.exr_path, "exr_path is empty; it must be a file's path or null");
-    if (o.progress)
-        out.progress = [call = o.progress, user = o.progress_user](double share) { return call(user, share) != 0; };
-    return out;
-}
+GeometricOptions to_cpp(const smx_geometric_options &g) { return {g.tile, g.realisations, g.bounces}; }
 
 void fill(smx_render_report *report, const RenderReport &r) {
     if (!report) return;
-    *report = {sizeof *report,   r.seconds, r.kernel_seconds, r.build_seconds, r.evaluations, r.spp,
-               r.standard_error, {},        r.unsettled};
+    *report = {sizeof *report,
+               r.seconds,
+               r.kernel_seconds,
+               r.build_seconds,
+               r.evaluations,
+               r.spp,
+               r.standard_error,
+               {},
+               r.unsettled,
+               r.effects,
+               static_cast<uint32_t>(r.lobes), r.interreflection};
     for (std::size_t k = 0; k < r.orders.size(); ++k)
         report->widening_orders[k] = static_cast<std::uint8_t>(r.orders[k]);
 }
@@ -98,7 +78,8 @@ smx_status smx_render_filtered(smx_context context, smx_material material, const
     return render(context, material, "material", scene, options, image, report,
                   [&](Context &c, const Scene &s, const RenderOptions &o) {
                       const auto kept = material->object;
-                      return shade_filtered(c, *kept, s, o);
+                      const auto choices = material->effects;
+                      return shade_filtered(c, *kept, s, o, choices->simulated(s, o));
                   });
 }
 

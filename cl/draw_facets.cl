@@ -23,31 +23,36 @@ inline Slot slot_of(int at, const Part *part, __constant const uint *seeds) {
     return s;
 }
 
-// Facets of X are kept as [5][stride]: the unit normal's x, y, z, then 1/z, then its density over solid angle.
-inline void store_facet_of_x(__global float *facets, int stride, uint at, Displacement x, float t1, float t2) {
-    float d1 = sqrt(x.var_1) * t1, d2 = sqrt(x.var_2) * t2;
+// Facets of X are kept as [5][stride]: the unit normal's x, y, z, then D_X over their density over solid angle, and
+// that density.
+inline void store_facet_of_x(__global float *facets, int stride, uint at, Displacement x, DrawnSlope along_1,
+                             DrawnSlope along_2) {
+    float t1 = along_1.t, t2 = along_2.t, d1 = sqrt(x.var_1) * t1, d2 = sqrt(x.var_2) * t2;
     float slope_x = x.mean_x + x.axis_x * d1 - x.axis_y * d2;
     float slope_y = x.mean_y + x.axis_y * d1 + x.axis_x * d2;
     float inv_mz = sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);
     facets[at] = -slope_x / inv_mz;
     facets[stride + at] = -slope_y / inv_mz;
     facets[2 * stride + at] = 1.0f / inv_mz;
-    facets[3 * stride + at] = inv_mz;
+    facets[3 * stride + at] = along_1.weight * along_2.weight * inv_mz;
 
     // Only asked for where X has both variances.
     float peak = 1.0f / (M_PI_F * sqrt(x.var_1) * sqrt(x.var_2));
-    facets[4 * stride + at] = peak * exp(-t1 * t1 - t2 * t2) * inv_mz * inv_mz * inv_mz;
+    facets[4 * stride + at] = peak * inv_mz * inv_mz * inv_mz * exp(-t1 * t1 - t2 * t2);
 }
 
-// Jittered strata, strata_1 x strata_2 along X's principal axes.
+// Jittered strata, strata_1 x strata_2 along X's principal axes. On a line they are graded: the last of equal strata,
+// which has all of the tail, would leave most of the error, and skew it. Over a plane weights cost more than that: two
+// axes' products are not stratified.
 __kernel void draw_grid(__global float *facets, int stride, Part part, __constant uint *seeds, Displacement x,
                         uint strata_1, uint strata_2) {
     Slot s = slot_of((int)get_global_id(0), &part, seeds);
     if (!s.wanted) return;
     uint hash = pcg(s.number ^ pcg(s.seed));
-    float t1 = slope_at(s.number / strata_2, strata_1, uniform_open(hash));
-    float t2 = slope_at(s.number % strata_2, strata_2, uniform_open(pcg(hash + 1u)));
-    store_facet_of_x(facets, stride, s.at, x, t1, t2);
+    uint graded_1 = strata_2 == 1u ? strata_1 / 8 : 0u, graded_2 = strata_1 == 1u ? strata_2 / 8 : 0u;
+    DrawnSlope along_1 = slope_at(s.number / strata_2, strata_1, graded_1, uniform_open(hash));
+    DrawnSlope along_2 = slope_at(s.number % strata_2, strata_2, graded_2, uniform_open(pcg(hash + 1u)));
+    store_facet_of_x(facets, stride, s.at, x, along_1, along_2);
 }
 
 // Scrambled Sobol points through the slopes' quantiles.
@@ -56,9 +61,9 @@ __kernel void draw_sobol(__global float *facets, int stride, Part part, __consta
     if (!s.wanted) return;
     uint2 bits = sobol_bits(s.number, s.seed);
     // The high half says where among 2^16 strata, the low half where within it: 32 bits where a float holds 24.
-    float t1 = slope_at(bits.x >> 16, 65536u, uniform_open(bits.x << 16));
-    float t2 = slope_at(bits.y >> 16, 65536u, uniform_open(bits.y << 16));
-    store_facet_of_x(facets, stride, s.at, x, t1, t2);
+    DrawnSlope along_1 = slope_at(bits.x >> 16, 65536u, 0u, uniform_open(bits.x << 16));
+    DrawnSlope along_2 = slope_at(bits.y >> 16, 65536u, 0u, uniform_open(bits.y << 16));
+    store_facet_of_x(facets, stride, s.at, x, along_1, along_2);
 }
 
 // Facets of the base about +z from scrambled Sobol points, [4][stride]: x, y and z - 1 of the unit normal, then the

@@ -14,7 +14,7 @@
 //   SLICE_SUMS       scrambles that share a vector, where they have few facets (facet_integral.clh); default 1
 //   TABLE_WHOLE      0: the table is a slice, 1: it is whole (table_slice.clh); default 0
 //   LOOKUP_NEAREST   0: linear, 1: nearest (table_slice.clh); default 0
-//   G2_SEPARABLE     0: height-correlated masking, 1: separable (masking.clh); default 0
+//   and what is simulated of X (effects.clh)
 #include "facet_integral.clh"
 #include "fresnel.clh"
 #include "masking.clh"

@@ -4,7 +4,7 @@
 //   W             lanes per work-item (vec.clh); default 1
 //   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
 //   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
-//   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
+//   and what is simulated (effects.clh)
 #include "fresnel.clh"
 #include "mixture.clh"
 #include "pairs.clh"
@@ -52,13 +52,12 @@ inline RgbW fcos_of_pair(__constant const Lobe *lobes, int count, __global const
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
     for (int k = 0; k < count; ++k) {
-        __global const float *curve = curves + 3 * k * knots;
-        sum = add_coloured(sum, fresnel_at(curve, knot), fresnel_at(curve + knots, knot),
-                           fresnel_at(curve + 2 * knots, knot), lobe_value(lobes + k, e));
+        RgbW f = fresnel_of(curves + 3 * k * knots, knots, knot);
+        sum = add_coloured(sum, f.r, f.g, f.b, lobe_value(lobes + k, e));
     }
 #else
-    sum = add_coloured(sum, fresnel_at(curves, knot), fresnel_at(curves + knots, knot),
-                       fresnel_at(curves + 2 * knots, knot), shared_value(lobes, count, e));
+    RgbW f = fresnel_of(curves, knots, knot);
+    sum = add_coloured(sum, f.r, f.g, f.b, shared_value(lobes, count, e));
 #endif
     return scaled(sum, common_factor(e));
 }

@@ -4,7 +4,7 @@
 //   W             lanes per work-item (vec.clh); default 1
 //   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
 //   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
-//   G2_SEPARABLE  0: height-correlated masking, 1: separable (masking.clh); default 0
+//   and what is simulated (effects.clh)
 //   WIDENING      axes along which X is rough, 1 or 2 (facet_chart.clh); default 2
 #ifndef WIDENING
 #define WIDENING 2
@@ -74,13 +74,12 @@ __kernel void shade_widened_pairs(__global float *fcos, int stride, __global con
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
     for (int k = 0; k < count; ++k) {
-        __global const float *curve = curves + 3 * k * knots;
-        sum = add_coloured(sum, fresnel_at(curve, &knot), fresnel_at(curve + knots, &knot),
-                           fresnel_at(curve + 2 * knots, &knot), widened_lobe(lobes, count, k, &e, &q));
+        RgbW f = fresnel_of(curves + 3 * k * knots, knots, &knot);
+        sum = add_coloured(sum, f.r, f.g, f.b, widened_lobe(lobes, count, k, &e, &q));
     }
 #else
-    sum = add_coloured(sum, fresnel_at(curves, &knot), fresnel_at(curves + knots, &knot),
-                       fresnel_at(curves + 2 * knots, &knot), widened_mixture(lobes, count, &e, &q));
+    RgbW f = fresnel_of(curves, knots, &knot);
+    sum = add_coloured(sum, f.r, f.g, f.b, widened_mixture(lobes, count, &e, &q));
 #endif
     sum = scaled(sum, visible_quarter(&e));
     store_floatsW(sum.r, 0, fcos + at);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "even_points.h"
 #include "shade_filtered.h"
 
 namespace smx {
@@ -32,17 +33,16 @@ struct Pairs {
     std::size_t count() const { return wi.size() / 3; }
 };
 
-// Lit pixels of the image, spread evenly by the additive recurrence of the plastic number (Roberts 2018, R2), which
-// leaves out no part of it, the rim included. Fewer where little of the image is lit.
+// Lit pixels of the image, spread evenly, which leaves out no part of it, the rim included. Fewer where little of the
+// image is lit.
 Pairs lit_pairs(const Scene &scene) {
-    constexpr double step_x = 0.7548776662466927, step_y = 0.5698402909980532;
     constexpr int most_points = 4096;
     const std::uint32_t side = std::min(scene.width, scene.height);
     Pairs pairs;
     for (int n = 1; n <= most_points && pairs.count() < probes; ++n) {
         // Over the square that the sphere fills.
-        const auto column = static_cast<std::uint32_t>(std::fmod(n * step_x, 1.0) * side);
-        const auto row = static_cast<std::uint32_t>(std::fmod(n * step_y, 1.0) * side);
+        const auto [x, y] = even_point(n);
+        const auto column = static_cast<std::uint32_t>(x * side), row = static_cast<std::uint32_t>(y * side);
         const auto d = lit_pixel(scene, (scene.width - side) / 2 + column, (scene.height - side) / 2 + row);
         if (!d) continue;
         for (double v : d->wi) pairs.wi.push_back(static_cast<float>(v));
@@ -161,7 +161,7 @@ std::vector<int> tried_orders(std::size_t lobes, std::size_t finest) {
 
 } // namespace
 
-ChosenOrders widening_orders(Context &context, const Material &material, const Scene &scene,
+ChosenOrders widening_orders(Context &context, const Material &material, const Scene &scene, Effects on,
                              const RenderOptions &options) {
     if (options.widening_order != widening_auto || rough_axes(scene.displacement) == 0)
         return {fixed_orders(material, scene.displacement, std::max(options.widening_order, 0)), {}};
@@ -172,7 +172,7 @@ ChosenOrders widening_orders(Context &context, const Material &material, const S
     if (pairs.count() == 0) // nothing to see
         return {fixed_orders(material, scene.displacement, 0), timer.finish(context, 0.0, 0)};
     const std::size_t finest = finest_candidate(options.widening_tolerance);
-    const LobeValues tried = eval_lobes(context, material, tried_orders(material.lobes.size(), finest), scene,
+    const LobeValues tried = eval_lobes(context, material, tried_orders(material.lobes.size(), finest), scene, on,
                                         options.grade, pairs.count(), pairs.wi.data(), pairs.wo.data());
     const Trial trial(material, scene, tried.values, pairs.count(), finest);
     return {orders_of(cheapest(trial, safety * options.widening_tolerance)),

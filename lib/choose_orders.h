@@ -12,7 +12,7 @@ struct ChosenOrders {
 
 // With widening_auto: some orders are tried on a few lit pixels, and the cheapest choice taken whose difference from
 // the highest order, over these pixels, is within options.widening_tolerance.
-ChosenOrders widening_orders(Context &context, const Material &material, const Scene &scene,
+ChosenOrders widening_orders(Context &context, const Material &material, const Scene &scene, Effects on,
                              const RenderOptions &options);
 
 } // namespace smx

@@ -114,12 +114,12 @@ cl::Kernel FacetIntegral::drawing_kernel(std::size_t index, const cl::Buffer &fa
 }
 
 cl::Kernel FacetIntegral::integrating_kernel() {
-    const Defines defines = {{"GRADE", static_cast<int>(task_.grade)},
-                             {"G2_SEPARABLE", task_.masking == Masking::Separable},
-                             {"LOOKUP_NEAREST", task_.lookup == Lookup::Nearest},
-                             {"TABLE_WHOLE", task_.whole_table},
-                             {"BALANCED", task_.plan.passes.size() > 1},
-                             {"SLICE_SUMS", static_cast<int>(scrambles_per_vector(task_.plan, device_.width()))}};
+    Defines defines = masking_defines(task_.effects);
+    defines["GRADE"] = static_cast<int>(task_.grade);
+    defines["LOOKUP_NEAREST"] = task_.lookup == Lookup::Nearest;
+    defines["TABLE_WHOLE"] = task_.whole_table;
+    defines["BALANCED"] = task_.plan.passes.size() > 1;
+    defines["SLICE_SUMS"] = static_cast<int>(scrambles_per_vector(task_.plan, device_.width()));
     cl::Kernel kernel = device_.kernel(kernel_file, task_.scene ? "integrate_sphere" : "integrate_pairs", defines);
     kernel.setArg(0, rgba_);
     kernel.setArg(1, errors_);

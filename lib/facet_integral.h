@@ -23,7 +23,7 @@ struct IntegralTask {
     const Scene *scene = nullptr;
     const PairPlanes *pairs = nullptr;
     Displacement displacement;
-    Masking masking = Masking::Correlated;
+    Effects effects = 0; // of what hides facets
     Lookup lookup = Lookup::Linear;
     bool whole_table = false;
     const std::vector<float> *table = nullptr;   // table_slice.h or table_whole.h

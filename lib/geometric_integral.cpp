@@ -27,11 +27,10 @@ GeometricIntegral::GeometricIntegral(Context &device, const GeometricTask &task,
     launched_.resize(4 * most_pixels);
     added_.resize(most_pixels);
     pixels_.resize(most_pixels);
-    const Defines defines = {{"MASKING", task.options.masking},
-                             {"SHADOWING", task.options.shadowing},
-                             {"UNIFORM_LIGHT", task.scene->light == Light::Uniform},
-                             {"PATHS", task.has_paths()},
-                             {"LOOKUP_NEAREST", task.lookup == Lookup::Nearest}};
+    Defines defines = masking_defines(task.effects);
+    defines["UNIFORM_LIGHT"] = task.scene->light == Light::Uniform;
+    defines["PATHS"] = task.has_paths();
+    defines["LOOKUP_NEAREST"] = task.lookup == Lookup::Nearest;
     kernel_ = device.kernel("integrate_geometric.cl", "integrate_geometric", defines);
     kernel_.setArg(0, sums_);
     kernel_.setArg(2, to_device(*task.scene));

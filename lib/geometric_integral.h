@@ -15,6 +15,7 @@ namespace smx {
 struct GeometricTask {
     const Scene *scene = nullptr;
     GeometricOptions options;
+    Effects effects = 0;
     Lookup lookup = Lookup::Linear;
     std::uint32_t samples = 0; // of a realisation
     std::uint64_t seed = 0;

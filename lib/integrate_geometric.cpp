@@ -1,5 +1,6 @@
 #include "integrate_geometric.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -59,17 +60,57 @@ Attributes describe_geometric(const Brdf &brdf, const Scene &scene, const Render
     attributes["slopemix.tile"] = std::to_string(g.tile);
     attributes["slopemix.realisations"] = std::to_string(g.realisations);
     attributes["slopemix.bounces"] = std::to_string(g.bounces);
-    attributes["slopemix.masking"] = g.masking ? "on" : "off";
-    attributes["slopemix.shadowing"] = g.shadowing ? "on" : "off";
     return attributes;
+}
+
+// Of auto and all, interreflection is on where paths go on at all.
+Effects geometric_effects_of(const RenderOptions &options, std::uint32_t bounces) {
+    const Effects on =
+        requested_effects(options.effects, geometric_effects, "the geometric reference", Masking::Correlated);
+    const bool named = options.effects != auto_effects && options.effects != all_effects;
+    require(!named || bounces > 0 || !(on & interreflection_effect),
+            "effects has interreflection, and bounces is 0; it must be 1..", max_bounces);
+    return bounces > 0 ? on : on & ~static_cast<Effects>(interreflection_effect);
+}
+
+// What interreflection adds to the image, relRMSE, by a pilot: the scene in little, with it and without. Both follow
+// the same paths as far as both go; what is left of their noise counts as if it were light.
+double interreflection_share(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
+                             const RenderOptions &options, const GeometricOptions &geometric) {
+    constexpr std::uint32_t side = 32, tile = 256, realisations = 2, samples = 128;
+    const double scale = std::min(1.0, double{side} / std::min(scene.width, scene.height));
+    Scene little = scene;
+    little.width = static_cast<std::uint32_t>(std::ceil(scale * scene.width));
+    little.height = static_cast<std::uint32_t>(std::ceil(scale * scene.height));
+    RenderOptions pilot = options;
+    pilot.spp = realisations * samples;
+    pilot.errors = false;
+    pilot.exr_path.clear();
+    pilot.progress = nullptr;
+    const GeometricOptions of_pilot = {std::min(geometric.tile, tile), realisations, geometric.bounces};
+    pilot.effects = geometric_effects;
+    const Image with = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
+    pilot.effects &= ~static_cast<Effects>(interreflection_effect);
+    const Image without = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
+    return compare(without, with).relrmse;
 }
 
 } // namespace
 
 Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
-                             const RenderOptions &options, const GeometricOptions &geometric) {
+                             const RenderOptions &options, const GeometricOptions &asked) {
     validate(scene);
-    validate(options, geometric);
+    validate(options, asked);
+    Effects on = geometric_effects_of(options, asked.bounces);
+    double interreflection = -1.0; // not judged
+    if (options.effects == auto_effects && (on & interreflection_effect)) {
+        interreflection = interreflection_share(context, brdf, source, scene, options, asked);
+        if (interreflection <= options.effect_tolerance) on &= ~static_cast<Effects>(interreflection_effect);
+    }
+    GeometricOptions geometric = asked;
+    if (!(on & interreflection_effect)) geometric.bounces = 0;
+    Scene simple = scene;
+    simple.displacement = simplified(scene.displacement, on);
     require_room(context, geometric.tile);
     const Context::Lock lock(context);
     const CallTimer timer(context);
@@ -79,7 +120,8 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     const std::vector<float> table = table_whole(brdf);
     HeightFields fields(static_cast<std::uint32_t>(std::countr_zero(geometric.tile)), options.seed);
     GeometricTask task;
-    task.scene = &scene;
+    task.scene = &simple;
+    task.effects = on;
     task.options = geometric;
     task.lookup = options.lookup;
     task.samples = options.spp / geometric.realisations;
@@ -92,6 +134,8 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
 
     RowErrors seen(scene.height);
     Attributes attributes = describe_geometric(brdf, scene, options, geometric);
+    attributes["slopemix.effects"] = effects_text(on);
+    if (interreflection >= 0.0) attributes["slopemix.interreflection"] = number_text(interreflection);
     canvas->begin(attributes);
     const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
         const auto integral = std::make_shared<GeometricIntegral>(device, task, most_rows);
@@ -107,6 +151,8 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     const std::uint64_t lit = scene.light == Light::Uniform ? sphere_pixels(scene) : lit_pixels(scene);
     RenderReport report = timer.finish(context, seconds, lit * options.spp);
     report.spp = options.spp;
+    report.effects = on;
+    report.interreflection = interreflection;
     report.standard_error = standard_error;
     return {std::move(image), report};
 }

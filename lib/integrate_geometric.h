@@ -9,12 +9,10 @@ namespace smx {
 
 constexpr std::uint32_t max_realisations = 65536, max_bounces = 1024;
 
-// What light does; each can be left out.
+// The surface, and how far light is followed. What else it does is the render options' effects.
 struct GeometricOptions {
     std::uint32_t tile = 1024;       // cells along a side, a power of two
     std::uint32_t realisations = 16; // tiles, each with an equal share of the samples
-    bool masking = true;             // facets behind others are not seen
-    bool shadowing = true;           // nor lit
     std::uint32_t bounces = 0;       // interreflection: facets after the first one that light may meet
 };
 

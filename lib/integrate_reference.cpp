@@ -54,10 +54,15 @@ bool draws_about_wh(const Displacement &displacement, const RenderOptions &optio
     return sampling_plan(displacement, options.sampler, options.spp).passes.size() > 1;
 }
 
-IntegralTask task_of(const Displacement &displacement, Masking masking, const RenderOptions &options) {
+// A reference leaves out only what it is told to: auto is all.
+Effects reference_effects_of(const RenderOptions &options, Masking masking) {
+    return requested_effects(options.effects, reference_effects, "the reference", masking);
+}
+
+IntegralTask task_of(const Displacement &displacement, Effects on, const RenderOptions &options) {
     IntegralTask task;
     task.displacement = displacement;
-    task.masking = masking;
+    task.effects = on;
     task.lookup = options.lookup;
     task.seed = options.seed;
     task.grade = options.grade;
@@ -136,16 +141,18 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     require_directional(scene);
     validate(options);
     validate(options.grade, context);
+    const Effects on = reference_effects_of(options, scene.masking);
+    const Displacement displacement = simplified(scene.displacement, on);
     const Context::Lock lock(context);
     const CallTimer timer(context);
     const auto canvas = make_canvas(scene.width, scene.height, options.errors, options.exr_path);
     report_progress(options, 0.0);
 
-    const bool about_wh = draws_about_wh(scene.displacement, options);
+    const bool about_wh = draws_about_wh(displacement, options);
     const std::vector<Lobe> proposal = about_wh ? source(theta_d(scene)) : std::vector<Lobe>{};
     const std::vector<float> table =
         options.whole_table ? table_whole(brdf) : table_slice(brdf, theta_d(scene), options.lookup);
-    IntegralTask task = task_of(scene.displacement, scene.masking, options);
+    IntegralTask task = task_of(displacement, on, options);
     task.scene = &scene;
     task.row_items = scene.width;
     task.whole_table = options.whole_table;
@@ -156,6 +163,7 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     RenderReport report = integrate_to_target(options, task, lit_pixels(scene), [&](std::uint32_t spp) -> Attempt {
         RowErrors seen(scene.height);
         attributes = describe_reference(brdf, scene, options, spp);
+        attributes["slopemix.effects"] = effects_text(on);
         canvas->begin(attributes);
         const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
             const auto integral = std::make_shared<FacetIntegral>(device, task, most_rows);
@@ -169,18 +177,21 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     if (report.standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(report.standard_error);
     std::optional<Image> image = canvas->finish(attributes);
     add_times(report, timer.finish(context, 0.0, 0));
+    report.effects = on;
     return {std::move(image), report};
 }
 
-RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalSource &source,
-                             const Displacement &displacement, Masking masking, const RenderOptions &options,
-                             std::size_t count, const float *wi, const float *wo, float *fcos, float *errors) {
-    validate(displacement);
+RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalSource &source, const Displacement &x,
+                             Masking masking, const RenderOptions &options, std::size_t count, const float *wi,
+                             const float *wo, float *fcos, float *errors) {
+    validate(x);
     validate(masking);
     validate(options);
     validate(options.grade, context);
     require(options.exr_path.empty(), "exr_path is \"", options.exr_path, "\"; pairs of directions make no image");
     require_pair_count(count);
+    const Effects on = reference_effects_of(options, masking);
+    const Displacement displacement = simplified(x, on);
     const Context::Lock lock(context);
     const CallTimer timer(context);
     report_progress(options, 0.0);
@@ -190,7 +201,7 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     const std::vector<Lobe> proposal = about_wh ? source(std::nullopt) : std::vector<Lobe>{};
     const std::vector<float> table = table_whole(brdf);
     const PairPlanes pairs = planes_of(wi, wo, count, context.width());
-    IntegralTask task = task_of(displacement, masking, options);
+    IntegralTask task = task_of(displacement, on, options);
     task.pairs = &pairs;
     task.row_items = 1;
     task.whole_table = true;
@@ -205,6 +216,7 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     std::copy(values.begin(), values.end(), fcos);
     std::copy(deviations.begin(), deviations.end(), errors);
     add_times(report, timer.finish(context, 0.0, 0));
+    report.effects = on;
     return report;
 }
 

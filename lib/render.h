@@ -9,6 +9,7 @@
 
 #include "canvas.h"
 #include "context.h"
+#include "effects.h"
 #include "grade.h"
 #include "image.h"
 #include "scene.h"
@@ -33,6 +34,8 @@ struct RenderOptions {
     Grade grade = Grade::Precise;
     int widening_order = 0;           // of filtered shading: 0..8, or widening_auto (choose_orders.h)
     double widening_tolerance = 0.02; // of widening_auto: relRMSE of the image
+    Effects effects = all_effects;    // a set, all_effects or auto_effects
+    double effect_tolerance = 1e-3;   // of auto_effects: relRMSE of the image
 };
 
 struct RenderReport {
@@ -40,7 +43,11 @@ struct RenderReport {
     std::uint64_t evaluations = 0;
     std::uint32_t spp = 0;        // drawn per pixel
     double standard_error = -1.0; // of the image, relative to its root mean square; negative: no estimate
-    std::vector<int> orders;      // of filtered shading: the widening's order of each lobe
+    std::vector<int> orders;      // of filtered shading: the widening's order of each lobe; 0 of one that is left out
+    Effects effects = 0;          // simulated
+    double interreflection =
+        -1.0;               // of the geometric reference and auto_effects: relRMSE without it; negative: not asked
+    std::size_t lobes = 0;  // of filtered shading: lobes that were shaded
     double unsettled = 0.0; // share of the lit pixels that have a lobe whose nodes were placed before they settled
 };
 

@@ -12,6 +12,8 @@ struct Displacement {
     double alpha_x = 0.0, alpha_y = 0.0;
     double rho = 0.0;
     double mean_slope_x = 0.0, mean_slope_y = 0.0;
+
+    bool operator==(const Displacement &) const = default;
 };
 
 // The surface that has the slopes of both, which are independent: means and covariances add. Throws InvalidArgument
@@ -29,6 +31,8 @@ struct Scene {
     Displacement displacement;
     Masking masking = Masking::Correlated;
     Light light = Light::Directional;
+
+    bool operator==(const Scene &) const = default;
 };
 
 constexpr std::uint32_t max_side = 16384;

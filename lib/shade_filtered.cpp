@@ -25,12 +25,11 @@ struct Program {
     bool widened;
     Defines defines;
 
-    Program(const Material &material, const Displacement &x, Masking masking, const std::vector<int> &orders,
-            Grade grade)
+    Program(const Material &material, const Displacement &x, Effects on, const std::vector<int> &orders, Grade grade)
         : widened(std::any_of(orders.begin(), orders.end(), [](int order) { return order > 0; })),
-          defines{{"PER_LOBE", material.model == Model::PerLobe},
-                  {"G2_SEPARABLE", masking == Masking::Separable},
-                  {"GRADE", static_cast<int>(grade)}} {
+          defines(effect_defines(on)) {
+        defines["PER_LOBE"] = material.model == Model::PerLobe;
+        defines["GRADE"] = static_cast<int>(grade);
         if (widened) defines["WIDENING"] = rough_axes(x);
     }
 
@@ -70,12 +69,28 @@ std::vector<float> packed_knots(const Material &material) {
     return knots;
 }
 
+// A material and a scene without what is not simulated.
+struct Simplified {
+    Material material;
+    Scene scene;
+    Effects on;
+};
+
+Simplified simplified(const Material &material, const Scene &scene, const Simulated &simulated) {
+    Simplified s = {simplified(material, simulated.on), scene, simulated.on};
+    s.scene.displacement = simplified(scene.displacement, simulated.on);
+    drop_lobes(s.material, simulated.lobes);
+    return s;
+}
+
 // What one device does with a tile of the sphere. Adds to `unsettled`.
-RenderRows start_sphere(Context &device, const Material &material, const Scene &scene, const RenderOptions &options,
+RenderRows start_sphere(Context &device, const Simplified &simple, const RenderOptions &options,
                         const std::vector<int> &orders, std::uint32_t most_rows,
                         std::atomic<std::uint64_t> &unsettled) {
+    const auto &[material, scene, on] = simple;
     const Grade grade = options.grade;
-    const Program program(material, scene.displacement, scene.masking, orders, grade);
+    Program program(material, scene.displacement, on, orders, grade);
+    program.defines.erase("FRESNEL"); // of one theta_d: in the data alone
     const cl::Buffer fresnel = fresnel_at_angle(device, material, theta_d(scene), grade);
     const cl::Buffer rgba = empty_buffer<cl_float4>(device, std::size_t{most_rows} * scene.width);
     const cl::Buffer lobes = lobe_buffer(device, material, scene.displacement, grade);
@@ -96,17 +111,25 @@ RenderRows start_sphere(Context &device, const Material &material, const Scene &
         kernel.setArg(10, count);
     }
     const std::size_t columns = round_up(scene.width, device.width()) / device.width();
-    return [&device, &scene, &options, &unsettled, rgba, kernel, columns, kept, count](
+    return [&device, &options, &unsettled, width = scene.width, rgba, kernel, columns, kept, count](
                const Tile &tile, const TileRows &to, const Step &) mutable {
         if (count()) device.queue().enqueueFillBuffer(count, cl_int{0}, 0, sizeof(cl_int));
         kernel.setArg(2, static_cast<cl_int>(tile.first_row));
         const double seconds = launch(device, kernel, columns, tile.rows, options.tiling.work_group);
-        read_rows(device, rgba, std::size_t{tile.rows} * scene.width, to.rgba);
+        read_rows(device, rgba, std::size_t{tile.rows} * width, to.rgba);
         cl_int counted = 0;
         if (count()) device.queue().enqueueReadBuffer(count, CL_TRUE, 0, sizeof counted, &counted);
         unsettled += static_cast<std::uint64_t>(counted);
         return seconds;
     };
+}
+
+// Orders of all lobes, from those of the lobes that are kept.
+std::vector<int> with_dropped(const std::vector<int> &orders, const std::vector<bool> &kept) {
+    std::vector<int> all;
+    auto next = orders.begin();
+    for (const bool is_kept : kept) all.push_back(is_kept ? *next++ : 0);
+    return all;
 }
 
 std::string text_of(const std::vector<int> &orders) {
@@ -120,12 +143,15 @@ std::string text_of(const std::vector<int> &orders) {
 
 } // namespace
 
-Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options) {
+Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options,
+                        const Simulated &simulated) {
     validate(scene);
     require_directional(scene);
     validate(options.grade, context);
     validate_widening(options);
-    const auto [orders, choice] = widening_orders(context, material, scene, options);
+    const Simplified simple = simplified(material, scene, simulated);
+    const auto [orders, choice] = widening_orders(context, simple.material, simple.scene, simple.on, options);
+    const std::vector<int> all_orders = with_dropped(orders, simulated.lobes);
     Attributes attributes = describe("filtered", scene);
     attributes["slopemix.material"] = material.name;
     attributes["slopemix.model"] = model_name(material.model);
@@ -133,15 +159,19 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
     attributes["slopemix.widening_order"] =
         options.widening_order == widening_auto ? "auto" : std::to_string(options.widening_order);
-    attributes["slopemix.widening_orders"] = text_of(orders);
+    attributes["slopemix.widening_orders"] = text_of(all_orders);
     if (options.widening_order == widening_auto)
         attributes["slopemix.widening_tolerance"] = number_text(options.widening_tolerance);
+    attributes["slopemix.effects"] = effects_text(simulated.on);
+    attributes["slopemix.lobes_shaded"] = std::to_string(simple.material.lobes.size());
     std::atomic<std::uint64_t> unsettled = 0;
-    Rendered rendered = render_once(
-        context, scene, options, attributes, [&, &orders = orders](Context &device, std::uint32_t most_rows) {
-            return start_sphere(device, material, scene, options, orders, most_rows, unsettled);
-        });
-    rendered.report.orders = orders;
+    Rendered rendered = render_once(context, scene, options, attributes,
+                                    [&, &orders = orders](Context &device, std::uint32_t most_rows) {
+                                        return start_sphere(device, simple, options, orders, most_rows, unsettled);
+                                    });
+    rendered.report.orders = all_orders;
+    rendered.report.effects = simulated.on;
+    rendered.report.lobes = simple.material.lobes.size();
     rendered.report.seconds += choice.seconds;
     rendered.report.kernel_seconds += choice.kernel_seconds;
     rendered.report.build_seconds += choice.build_seconds;
@@ -150,11 +180,14 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     return rendered;
 }
 
-void shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement, Masking masking,
+void shade_filtered_pairs(Context &context, const Material &given, const Displacement &x, Masking masking,
                           const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
                           float *fcos) {
-    validate(displacement);
+    validate(x);
     validate(masking);
+    const Effects on = everything(given, options.effects, masking).on;
+    const Material material = simplified(given, on);
+    const Displacement displacement = simplified(x, on);
     const Grade grade = options.grade;
     validate(grade, context);
     validate_widening(options);
@@ -166,7 +199,7 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
 
     const Context::Lock lock(context);
     const std::vector<int> orders = fixed_orders(material, displacement, options.widening_order);
-    const Program program(material, displacement, masking, orders, grade);
+    const Program program(material, displacement, on, orders, grade);
     const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
@@ -194,9 +227,9 @@ void shade_filtered_pairs(Context &context, const Material &material, const Disp
 }
 
 LobeValues eval_lobes(Context &context, const Material &material, const std::vector<int> &orders, const Scene &scene,
-                      Grade grade, std::size_t count, const float *wi, const float *wo) {
+                      Effects on, Grade grade, std::size_t count, const float *wi, const float *wo) {
     const std::size_t stride = round_up(count, context.width());
-    const Program program(material, scene.displacement, scene.masking, orders, grade);
+    const Program program(material, scene.displacement, on, orders, grade);
     const cl::Buffer out = empty_buffer<float>(context, orders.size() * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));

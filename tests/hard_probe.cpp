@@ -26,7 +26,7 @@ __kernel void probe(__global real *out, int stride, __global const float *wi, __
     intW up = hz > (realW)0.0f;
     Tilted h = tilted(&x, selectW((realW)0.0f, hx, up), selectW((realW)0.0f, hy, up), selectW((realW)1.0f, hz, up));
     __global real *to = out + at;
-#if PER_LOBE == 0 && G2_SEPARABLE == 0
+#if PER_LOBE == 0 && HEIGHT_CORRELATION == 1
     vstoreW(selectW((realW)0.0f, mixture_ndf(lobes, count, &h), up), 0, to);
     vstoreW(mixture_sigma(lobes, count, &i), 0, to + stride);
     vstoreW(mixture_lambda(lobes, count, &i), 0, to + 2 * stride);
@@ -36,10 +36,10 @@ __kernel void probe(__global real *out, int stride, __global const float *wi, __
 #endif
 #if PER_LOBE == 0
     realW g2 = selectW((realW)0.0f, mixture_g2(lobes, count, &e) * e.o.p, e.visible);
-    vstoreW(g2, 0, to + (8 + G2_SEPARABLE) * stride);
+    vstoreW(g2, 0, to + (9 - HEIGHT_CORRELATION) * stride);
 #endif
     RgbW f = fcos_of_pair(lobes, count, curves, knots, &knot, &e);
-    int shading = 10 + 6 * PER_LOBE + 3 * G2_SEPARABLE;
+    int shading = 10 + 6 * PER_LOBE + 3 * (1 - HEIGHT_CORRELATION);
     vstoreW(f.r, 0, to + shading * stride);
     vstoreW(f.g, 0, to + (shading + 1) * stride);
     vstoreW(f.b, 0, to + (shading + 2) * stride);
@@ -98,7 +98,7 @@ HardProbe::HardProbe(smx::Context &context, smx::Grade grade) : context_(context
             program.build(smx::build_options({{"W", static_cast<int>(context.width())},
                                               {"GRADE", static_cast<int>(grade)},
                                               {"PER_LOBE", per_lobe},
-                                              {"G2_SEPARABLE", separable}})
+                                              {"HEIGHT_CORRELATION", 1 - separable}})
                               .c_str());
             kernels_.emplace_back(program, "probe");
         }

@@ -59,6 +59,7 @@ bool has_double() {
         const Material material = make_material({{1.0, 0.1}});
         const smx_scene scene = make_scene(1, 1, 0.0, {});
         smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+        options.effects = SMX_EFFECTS_ALL;
         options.grade = SMX_GRADE_DOUBLE;
         Image image;
         return smx_render_filtered(context(), material, &scene, &options, image.out(), nullptr) == SMX_OK;
@@ -184,6 +185,7 @@ smx_scene make_scene(uint32_t width, uint32_t height, double light_phi, const sm
 
 smx_render_options make_options(uint32_t spp, uint64_t seed, smx_lookup lookup) {
     smx_render_options o = SMX_RENDER_OPTIONS_INIT;
+    o.effects = SMX_EFFECTS_ALL;
     o.sampler = SMX_SAMPLER_GRID;
     o.spp = spp;
     o.seed = seed;
@@ -192,8 +194,10 @@ smx_render_options make_options(uint32_t spp, uint64_t seed, smx_lookup lookup) 
 }
 
 Image render_filtered(smx_material material, const smx_scene &scene, smx_context where) {
+    smx_render_options all = SMX_RENDER_OPTIONS_INIT;
+    all.effects = SMX_EFFECTS_ALL;
     Image image;
-    EXPECT_SMX_OK(smx_render_filtered(where ? where : context(), material, &scene, nullptr, image.out(), nullptr));
+    EXPECT_SMX_OK(smx_render_filtered(where ? where : context(), material, &scene, &all, image.out(), nullptr));
     return image;
 }
 

@@ -185,6 +185,15 @@ TEST(Allocation, Renders) {
         const smx_render_options options = test::make_options(16);
         return smx_render_reference(test::context(), o.brdf, &scene, &options, image.out(), nullptr);
     });
+    expect_out_of_memory("smx_render_geometric", 100, [&] {
+        test::Image image;
+        const smx_render_options options = test::make_options(4);
+        smx_geometric_options geometric = SMX_GEOMETRIC_OPTIONS_INIT;
+        geometric.tile = 64;
+        geometric.realisations = 2;
+        geometric.bounces = 1;
+        return smx_render_geometric(test::context(), o.brdf, &scene, &options, &geometric, image.out(), nullptr);
+    });
     expect_out_of_memory("smx_material_eval", 200, [&] {
         const float up[] = {0.0f, 0.0f, 1.0f};
         float fcos[3];

@@ -48,8 +48,7 @@ TEST(CliGeometric, WritesAnImageAndSaysHow) {
                                      {"slopemix.tile", "128"},
                                      {"slopemix.realisations", "4"},
                                      {"slopemix.bounces", "2"},
-                                     {"slopemix.masking", "on"},
-                                     {"slopemix.shadowing", "on"}})
+                                     {"slopemix.effects", "masking,shadowing,anisotropy,mean-slope,interreflection"}})
         EXPECT_STREQ(smx_image_get_attribute(image, key), value) << key;
 }
 

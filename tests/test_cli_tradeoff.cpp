@@ -69,9 +69,16 @@ TEST(CliTradeoff, SweepsEveryMethodAndWritesItsFiles) {
                                                "mis 64 fast",
                                                "mis 64 double",
                                                "mis 64 separable",
+                                               "mis 64 no-masking",
+                                               "mis 64 no-shadowing",
                                                "per-lobe N=1 order 0 fast",
                                                "per-lobe N=1 order 0 double",
-                                               "per-lobe N=1 order 0 separable"}));
+                                               "per-lobe N=1 order 0 separable",
+                                               "per-lobe N=1 order 0 no-masking",
+                                               "per-lobe N=1 order 0 no-shadowing",
+                                               "per-lobe N=1 order 0 no-fresnel",
+                                               "per-lobe N=1 order 0 no-lobe-color",
+                                               "per-lobe N=1 order 0 effects-auto"}));
     for (const std::string &name : names) {
         EXPECT_NE(test::read_file(dir / "tradeoff.csv").find('\n' + name + ','), std::string::npos) << name;
         const json &point = point_named(report, name);
@@ -102,6 +109,21 @@ TEST(CliTradeoff, ErrorsAreThoseAgainstTheTruth) {
     const json &filter = point_named(report, "per-lobe N=1 order 0");
     EXPECT_CLOSE(filter.at("relrmse").get<double>(), filter_error, 1e-6, 0.0);
     EXPECT_TRUE(filter.at("noise").is_null());
+
+    constexpr uint32_t all = SMX_EFFECT_MASKING | SMX_EFFECT_SHADOWING | SMX_EFFECT_HEIGHT_CORRELATION |
+                             SMX_EFFECT_FRESNEL | SMX_EFFECT_LOBE_COLOR | SMX_EFFECT_ANISOTROPY | SMX_EFFECT_MEAN_SLOPE;
+    for (const auto &[word, effect] :
+         std::vector<std::pair<std::string, smx_effect>>{{"no-masking", SMX_EFFECT_MASKING},
+                                                         {"no-fresnel", SMX_EFFECT_FRESNEL},
+                                                         {"no-anisotropy", SMX_EFFECT_ANISOTROPY}}) {
+        smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+        options.effects = all & ~uint32_t{effect};
+        test::Image without;
+        ASSERT_SMX_OK(smx_render_filtered(test::context(), material, &scene, &options, without.out(), nullptr));
+        const double error = test::relrmse(without, truth);
+        EXPECT_CLOSE(point_named(report, "per-lobe N=1 order 0 " + word).at("relrmse").get<double>(), error, 1e-6, 0.0);
+        EXPECT_NE(error, filter_error) << word;
+    }
 
     const json &sampled = point_named(report, "mis 16");
     const auto runs = sampled.at("runs").get<uint64_t>();

@@ -1,10 +1,9 @@
 // Standard errors are honest: Student's interval about a pixel, with as many degrees of freedom as scrambles but one,
 // holds the converged value as often as it says. Every trial has a scene and a seed of its own, and is one pixel of it.
 //
-// Student asks for means of scrambles that are normal. They are skewed: the last stratum of X's slopes, which has all
-// of its tail, leaves most of the error, whatever the number of samples. Intervals of 95 % hold 92.5 to 94 % (most
-// where X has two axes, least on lines); those of 50 % what they say. Dark pixels, carried by few samples, are left
-// out.
+// Student asks for means of scrambles that are normal. Equal strata of X's slopes would skew them, most on a line: the
+// outermost, with all of the tail, would leave most of the error (draw_grid in cl/draw_facets.cl). Over a plane a
+// little of it is left. Dark pixels, carried by few samples, are left out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,8 +26,6 @@ constexpr float dark_share = 0.25f;
 constexpr double rounding = 1e-7;
 // An honest estimate is refused by one run in a thousand.
 constexpr double significance = 1e-3;
-// Of intervals of 95 %, what the skewness leaves at the least.
-constexpr double skewed_95 = 0.92;
 
 // Red of a pixel.
 struct Trial {
@@ -86,6 +83,10 @@ std::optional<std::size_t> random_pixel(const Estimate &image, test::Random &ran
 }
 
 constexpr smx_sampler samplers[] = {SMX_SAMPLER_SOBOL, SMX_SAMPLER_MIS};
+// What intervals of 50 and of 95 % hold of each: what they say, and of mis 94 % of the latter (7000 trials with other
+// seeds held 94.0 to 94.7 %).
+constexpr double levels[] = {0.5, 0.95};
+constexpr double wanted[2][2] = {{0.5, 0.95}, {0.5, 0.94}};
 
 // Of both samplers, in that order, in the same scenes.
 std::array<std::vector<Trial>, 2> make_trials() {
@@ -116,11 +117,6 @@ int covered(const std::vector<Trial> &trials, double level, double scale = 1.0) 
     }));
 }
 
-// Exact: the chance of so few.
-double chance_of_as_few(std::size_t trials, int successes, double level) {
-    return boost::math::cdf(boost::math::binomial(static_cast<double>(trials), level), successes);
-}
-
 // Exact, two-sided: the lesser tail, doubled.
 double binomial_p_value(std::size_t trials, int successes, double level) {
     const boost::math::binomial distribution(static_cast<double>(trials), level);
@@ -136,12 +132,12 @@ TEST(Coverage, IntervalsHoldTheTruthAsOftenAsTheySay) {
     for (std::size_t s = 0; s < 2; ++s) {
         SCOPED_TRACE(::testing::Message() << "sampler " << samplers[s]);
         const std::size_t count = trials[s].size();
-        const int half = covered(trials[s], 0.5), most = covered(trials[s], 0.95);
-        EXPECT_GT(binomial_p_value(count, half, 0.5), significance) << "intervals of 0.5 hold " << half;
-        EXPECT_GT(chance_of_as_few(count, most, skewed_95), significance) << "intervals of 0.95 hold " << most;
-        RecordProperty("covered_95_sampler_" + std::to_string(samplers[s]), most);
-        // Errors a fifth too small are seen.
-        EXPECT_LT(binomial_p_value(count, covered(trials[s], 0.5, 0.8), 0.5), significance);
-        EXPECT_LT(chance_of_as_few(count, covered(trials[s], 0.95, 0.8), skewed_95), significance);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const int held = covered(trials[s], levels[k]);
+            EXPECT_GT(binomial_p_value(count, held, wanted[s][k]), significance)
+                << "intervals of " << levels[k] << " hold " << held << " of " << count;
+            // Errors a fifth too small are seen.
+            EXPECT_LT(binomial_p_value(count, covered(trials[s], levels[k], 0.8), wanted[s][k]), significance);
+        }
     }
 }

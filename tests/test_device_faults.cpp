@@ -131,6 +131,18 @@ Call render_reference(smx_brdf brdf) {
     };
 }
 
+Call render_geometric(smx_brdf brdf) {
+    return [=] {
+        test::Image image;
+        const smx_render_options options = test::make_options(4);
+        smx_geometric_options geometric = SMX_GEOMETRIC_OPTIONS_INIT;
+        geometric.tile = 64;
+        geometric.realisations = 2;
+        geometric.bounces = 1;
+        return smx_render_geometric(test::context(), brdf, &scene, &options, &geometric, image.out(), nullptr);
+    };
+}
+
 Call render_geometry() {
     return [] {
         test::Image image;
@@ -166,6 +178,7 @@ TEST(DeviceFaults, EveryRefusalIsAStatus) {
     const test::Image before = test::render_filtered(material, scene);
     EXPECT_GE(expect_refusals("smx_render_filtered", render_filtered(material)), 4);
     EXPECT_GE(expect_refusals("smx_render_reference", render_reference(brdf)), 4);
+    EXPECT_GE(expect_refusals("smx_render_geometric", render_geometric(brdf)), 4);
     EXPECT_GE(expect_refusals("smx_render_geometry", render_geometry()), 3);
     EXPECT_GE(expect_refusals("smx_material_eval", evaluate(material)), 4);
     EXPECT_GE(expect_refusals("smx_brdf_integrate", integrate(brdf)), 4);

@@ -186,6 +186,7 @@ TEST(Energy, ShadingIsReciprocal) {
         for (const smx_masking g : {SMX_G2_CORRELATED, SMX_G2_SEPARABLE})
             for (const int order : {0, 1, 4}) {
                 smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+                options.effects = SMX_EFFECTS_ALL;
                 options.widening_order = order;
                 const test::Material materials[] = {test::make_material(f.lobes),
                                                     test::make_per_lobe_material(f.lobes, f.colours())};

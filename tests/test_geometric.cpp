@@ -53,20 +53,17 @@ double mean(const Geometric &g, const Settings &s) {
     return sum / count;
 }
 
-// Red of the statistical reference without masking and shadowing: the separable one's, without its factors.
+// A surface whose facets nothing hides.
+constexpr uint32_t unhidden = SMX_EFFECT_ANISOTROPY | SMX_EFFECT_MEAN_SLOPE;
+
+// Red of the statistical reference without masking and shadowing.
 std::vector<double> unmasked_reference(smx_brdf brdf, const smx_scene &scene) {
-    smx_scene separable = scene;
-    separable.masking = SMX_G2_SEPARABLE;
-    const test::Image image = test::render_reference(brdf, separable, test::make_options(65536));
-    const oracle::Gaussian x = test::gaussian(scene.displacement);
+    smx_render_options options = test::make_options(65536);
+    options.effects = unhidden;
+    const test::Image image = test::render_reference(brdf, scene, options);
     std::vector<double> red;
-    for (uint32_t k = 0; k < scene.width * scene.height; ++k) {
-        const oracle::Pixel p = oracle::sphere_pixel(static_cast<int>(scene.width), static_cast<int>(scene.height),
-                                                     k % scene.width, k / scene.width, scene.light_phi);
-        const bool lit = p.on_sphere && p.wi.z > 0.0;
-        const double value = smx_image_pixels(image)[4 * std::size_t{k}];
-        red.push_back(lit ? value / oracle::g2(oracle::Masking::separable, x, p.wi, p.wo) : 0.0);
-    }
+    for (std::size_t k = 0; k < std::size_t{scene.width} * scene.height; ++k)
+        red.push_back(smx_image_pixels(image)[4 * k]);
     return red;
 }
 
@@ -107,7 +104,7 @@ TEST(Geometric, WithoutMaskingAndShadowingIsTheStatisticalReferenceWithoutThem) 
          {smx_displacement{0.25, 0.25, 0.0, 0.0, 0.0}, {0.4, 0.1, 0.5, 0.0, 0.0}, {0.0, 0.3, 0.0, 0.1, 0.0}}) {
         Settings s(16, 0.0, realisations, 256);
         s.scene.displacement = x;
-        s.geometric.masking = s.geometric.shadowing = 0;
+        s.options.effects = unhidden;
         const Geometric g = render(brdf, s);
         SCOPED_TRACE(::testing::Message() << "X " << x.alpha_x << " " << x.alpha_y);
         EXPECT_LT(share_beyond(g, unmasked_reference(brdf, s.scene), t_5_percent), most_beyond);
@@ -136,7 +133,7 @@ TEST(Geometric, WhatIsSeenFromTheLightIsLit) {
     Settings s(16, 1.0, 4, 256);
     s.scene.light_phi = test::radians(90.0);
     const Geometric shadowed = render(brdf, s);
-    s.geometric.shadowing = 0;
+    s.options.effects = unhidden | SMX_EFFECT_MASKING;
     const Geometric unshadowed = render(brdf, s);
     // A ray that goes back along an edge that it just missed may meet it by rounding.
     EXPECT_LT(test::relrmse(shadowed.image, unshadowed.image), 1e-4);
@@ -175,11 +172,30 @@ TEST(Geometric, SwitchesAddAndTakeLight) {
     s.geometric.bounces = 4;
     const double more = mean(render(brdf, s), s);
     s.geometric.bounces = 0;
-    s.geometric.shadowing = 0;
+    s.options.effects = unhidden | SMX_EFFECT_MASKING;
     const double unshadowed = mean(render(brdf, s), s);
     EXPECT_GT(twice, 1.02 * single);
     EXPECT_GT(more, 1.002 * twice);
     EXPECT_GT(unshadowed, 1.05 * single);
+}
+
+// Auto follows light further where that shows.
+TEST(Geometric, AutoJudgesInterreflection) {
+    const test::Brdf brdf = open("analytic:lambert,albedo=0.8");
+    for (const double alpha : {0.02, 1.0}) {
+        Settings s(16, alpha, 2, 64);
+        s.options.effects = SMX_EFFECTS_AUTO;
+        s.geometric.bounces = 3;
+        const Geometric chosen = render(brdf, s);
+        EXPECT_EQ((chosen.report.effects & SMX_EFFECT_INTERREFLECTION) != 0, alpha == 1.0) << alpha;
+        EXPECT_GE(chosen.report.interreflection, 0.0);
+        s.options.effects = SMX_EFFECTS_ALL;
+        const Geometric all = render(brdf, s);
+        EXPECT_LT(all.report.interreflection, 0.0); // not judged
+        // Left out it would be within the tolerance; kept it is the same image.
+        EXPECT_LE(test::relrmse(chosen.image, all.image), s.options.effect_tolerance) << alpha;
+        if (alpha == 1.0) EXPECT_GT(chosen.report.interreflection, 0.02);
+    }
 }
 
 TEST(Geometric, SameBitsOnAnyNumberOfDevices) {

@@ -17,6 +17,7 @@ constexpr double fast_bound = 1e-3;
 
 test::Image filtered(smx_material material, const smx_scene &scene, smx_grade grade) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.grade = grade;
     test::Image image;
     EXPECT_SMX_OK(smx_render_filtered(test::context(), material, &scene, &options, image.out(), nullptr));
@@ -25,6 +26,7 @@ test::Image filtered(smx_material material, const smx_scene &scene, smx_grade gr
 
 test::Image reference(smx_brdf brdf, const smx_scene &scene, smx_sampler sampler, smx_grade grade) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.sampler = sampler;
     options.spp = 256;
     options.grade = grade;
@@ -116,6 +118,7 @@ TEST(Grades, OthersAreRefused) {
     const test::Brdf brdf = test::make_brdf(test::beckmann_table({{1.0, 0.3}}, oracle::Masking::correlated));
     const smx_scene scene = test::make_scene(8, 8, 0.0, {});
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     for (const int value : {-1, 3}) {
         options.grade = static_cast<smx_grade>(value);
         test::Image image;

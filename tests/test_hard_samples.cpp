@@ -19,53 +19,68 @@ constexpr double factor = 16 * epsilon; // of (1 + condition)
 constexpr double well_conditioned = 1e-5;
 constexpr double smallest_float = 0x1p-126;
 
-struct Draw {
-    cl_uint whole_1, strata_1;
-    cl_float fraction_1;
-    cl_uint whole_2, strata_2;
-    cl_float fraction_2;
+struct Place {
+    cl_uint whole, strata, graded;
+    cl_float fraction;
 };
 
-// Writes t1, t2, then the facet as draw_facets.cl stores it.
+struct Draw {
+    Place along_1, along_2;
+};
+
+// Writes t1, t2, then the facet as draw_facets.cl stores it but for the weights.
 constexpr const char *probe = R"(
-typedef struct { uint whole_1, strata_1; float fraction_1; uint whole_2, strata_2; float fraction_2; } Draw;
+typedef struct { uint whole, strata, graded; float fraction; } Place;
+typedef struct { Place along_1, along_2; } Draw;
+inline DrawnSlope slope_of(Place p) { return slope_at(p.whole, p.strata, p.graded, p.fraction); }
 __kernel void probe(__global float *out, int stride, __global const Draw *draws, Displacement x) {
     uint at = (uint)get_global_id(0);
     Draw d = draws[at];
-    float t1 = slope_at(d.whole_1, d.strata_1, d.fraction_1), t2 = slope_at(d.whole_2, d.strata_2, d.fraction_2);
-    out[at] = t1;
-    out[stride + at] = t2;
-    store_facet_of_x(out + 2 * stride, stride, at, x, t1, t2);
+    DrawnSlope along_1 = slope_of(d.along_1), along_2 = slope_of(d.along_2);
+    out[at] = along_1.t;
+    out[stride + at] = along_2.t;
+    along_1.weight = along_2.weight = 1.0f;
+    store_facet_of_x(out + 2 * stride, stride, at, x, along_1, along_2);
 }
 )";
 
 // The middle, either tail to its end, and everywhere between.
-void draw(test::Random &random, cl_uint &whole, cl_uint &strata, cl_float &fraction) {
-    constexpr std::array<cl_uint, 5> counts{1, 2, 7, 4096, 65536};
-    strata = counts[random.below(counts.size())];
+Place draw(test::Random &random) {
+    constexpr std::array<cl_uint, 6> counts{1, 2, 7, 4096, 65536, 1 << 24};
+    const cl_uint strata = counts[random.below(counts.size())], graded = random.below(2) ? strata / 8 : 0;
     const std::size_t kind = random.below(4);
-    whole = kind == 0 ? 0 : kind == 1 ? strata - 1 : static_cast<cl_uint>(random.below(strata));
+    const cl_uint whole = kind == 0 ? 0 : kind == 1 ? strata - 1 : static_cast<cl_uint>(random.below(strata));
     const double u = kind < 2 ? random.log_uniform(0x1p-24, 0.5) : random.uniform();
-    fraction = static_cast<float>(std::min(std::max(u, 0x1p-24), 1.0 - 0x1p-24));
-    if (kind == 1) fraction = 1.0f - fraction;
+    const auto fraction = static_cast<float>(std::min(std::max(u, 0x1p-24), 1.0 - 0x1p-24));
+    return {whole, strata, graded, kind == 1 ? 1.0f - fraction : fraction};
 }
 
 std::vector<Draw> draws(std::size_t count, uint64_t seed) {
     test::Random random(seed);
     std::vector<Draw> list(count);
-    for (Draw &d : list) {
-        draw(random, d.whole_1, d.strata_1, d.fraction_1);
-        draw(random, d.whole_2, d.strata_2, d.fraction_2);
-    }
+    for (Draw &d : list) d.along_1 = draw(random), d.along_2 = draw(random);
     return list;
 }
 
-// Error of a slope t of exp(-t^2) / sqrt(pi) at the mass (whole + fraction) / strata, over what is allowed. The mass
-// below t is compared, from the nearer end, and its difference told in t.
-double slope_error(cl_uint whole, cl_uint strata, cl_float fraction, double t) {
-    const Wide below = (static_cast<Wide>(whole) + static_cast<Wide>(fraction)) / strata;
-    const Wide above = (static_cast<Wide>(strata - 1 - whole) + (1.0L - static_cast<Wide>(fraction))) / strata;
-    const Wide mass = std::min(below, above), side = below < above ? -1.0L : 1.0L;
+// Mass of the first `before` strata and a fraction of the next.
+Wide mass_of_strata(const Place &p, cl_uint before, Wide fraction) {
+    const auto mass_of = [&](cl_uint count) { // of whole ones, no more than half of all
+        const cl_uint graded = std::min(count, p.graded);
+        return p.graded ? Wide(graded) * graded / (2.0L * p.graded) + (count - graded) : Wide(count);
+    };
+    const Wide begin = mass_of(before);
+    return (begin + (mass_of(before + 1) - begin) * fraction) / (p.strata - p.graded);
+}
+
+// Error of a slope t of exp(-t^2) / sqrt(pi) at its place, over what is allowed. The mass below t is compared, from the
+// nearer end, and its difference told in t.
+double slope_error(const Place &p, double t) {
+    const auto fraction = static_cast<Wide>(p.fraction);
+    const Wide half = 0.5L, whole = p.whole;
+    const bool is_low = whole + fraction < half * p.strata;
+    const Wide mass =
+        is_low ? mass_of_strata(p, p.whole, fraction) : mass_of_strata(p, p.strata - 1 - p.whole, 1.0L - fraction);
+    const Wide side = is_low ? -1.0L : 1.0L;
     const Wide density = std::exp(-Wide(t) * t) / std::sqrt(oracle::pi_of<Wide>());
     const Wide off = std::abs(std::erfc(side * Wide(t)) / 2.0L - mass) / density;
     const Wide condition = mass / (density * std::max(std::abs(Wide(t)), Wide(smallest_float)));
@@ -159,10 +174,10 @@ TEST(HardSamples, SlopesAndFacetsAreAsPromised) {
             const double t[] = {got[k], got[per_case + k]};
             for (int axis = 0; axis < 2; ++axis) {
                 std::ostringstream what;
-                const cl_uint whole = axis ? d.whole_2 : d.whole_1, strata = axis ? d.strata_2 : d.strata_1;
-                const cl_float fraction = axis ? d.fraction_2 : d.fraction_1;
-                what << "slope at (" << whole << " + " << fraction << ") / " << strata << ": " << t[axis];
-                slopes.see(slope_error(whole, strata, fraction, t[axis]), what.str());
+                const Place &p = axis ? d.along_2 : d.along_1;
+                what << "slope at (" << p.whole << " + " << p.fraction << ") / " << p.strata << ", " << p.graded
+                     << " graded: " << t[axis];
+                slopes.see(slope_error(p, t[axis]), what.str());
             }
         }
         compare_facets(x, got, per_case, facets);
@@ -180,7 +195,10 @@ TEST(HardSamples, SlopesAndFacetsAreAsPromised) {
 
 // The comparison sees a quantile that is 1e-5 off.
 TEST(HardSamples, SlopesOffAreSeen) {
-    EXPECT_LT(slope_error(0, 2, 0.5f, -0.47693627620446987), 0.01);
-    EXPECT_GT(slope_error(0, 2, 0.5f, -0.47693627620446987 * (1.0 + 1e-5)), 1.0);
-    EXPECT_GT(slope_error(0, 65536, 0x1p-24f, -4.9), 1.0);
+    EXPECT_LT(slope_error({0, 2, 0, 0.5f}, -0.47693627620446987), 0.01);
+    EXPECT_GT(slope_error({0, 2, 0, 0.5f}, -0.47693627620446987 * (1.0 + 1e-5)), 1.0);
+    EXPECT_GT(slope_error({0, 65536, 0, 0x1p-24f}, -4.9), 1.0);
+    // The first of 8 strata, when it is graded, ends at 1/14.
+    EXPECT_LT(slope_error({1, 8, 1, 0x1p-24f}, -1.0360767508316173), 0.1);
+    EXPECT_GT(slope_error({1, 8, 0, 0x1p-24f}, -1.0360767508316173), 1.0);
 }

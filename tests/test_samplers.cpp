@@ -99,13 +99,17 @@ Facets draw(const char *name, cl_uint seed, Set set) {
     return facets;
 }
 
-Facets draw_of_x(bool grid, const smx::Displacement &x, cl_uint seed) {
-    return draw(grid ? "draw_grid" : "draw_sobol", seed, [&](cl::Kernel &kernel) {
+Facets draw_grid(const smx::Displacement &x, cl_uint strata_1, cl_uint strata_2, cl_uint seed) {
+    return draw("draw_grid", seed, [&](cl::Kernel &kernel) {
         kernel.setArg(4, smx::to_device(x));
-        if (!grid) return;
-        kernel.setArg(5, cl_uint{512});
-        kernel.setArg(6, cl_uint{512});
+        kernel.setArg(5, strata_1);
+        kernel.setArg(6, strata_2);
     });
+}
+
+Facets draw_of_x(bool grid, const smx::Displacement &x, cl_uint seed) {
+    if (grid) return draw_grid(x, 512, 512, seed);
+    return draw("draw_sobol", seed, [&](cl::Kernel &kernel) { kernel.setArg(4, smx::to_device(x)); });
 }
 
 const std::vector<smx::Displacement> &surfaces() {
@@ -142,6 +146,20 @@ Cells cells_of_x(const Facets &facets, const smx::Displacement &x) {
     }
     return cells;
 }
+
+// Facets of a surface that is rough along y only, a stratum each.
+class LineFacets {
+  public:
+    LineFacets(cl_uint strata, cl_uint seed) : strata_(strata), facets_(draw_grid(x_, 1, strata, seed)) {}
+    // Of the density's mass, what is below facet k, and its stratum's share.
+    double mass_at(std::size_t k) const { return mass_below(-facets_.at(1, k) / facets_.at(2, k) / x_.alpha_y); }
+    double mass_of(std::size_t k) const { return facets_.at(3, k) * facets_.at(2, k) / strata_; }
+
+  private:
+    static constexpr smx::Displacement x_{0.0, 0.3, 0.0, 0.0, 0.0};
+    cl_uint strata_;
+    Facets facets_;
+};
 
 using Lobes = std::vector<smx::Lobe>;
 
@@ -219,7 +237,7 @@ TEST(Samplers, UniformNumbersAreOpen) {
 }
 
 TEST(Samplers, QuantileHasItsStatedError) {
-    constexpr double low = 0x1p-48, high = 0.5, stated = 9e-7;
+    constexpr double low = 0x1p-70, high = 0.5, stated = 9e-7;
     test::Random random(3);
     std::vector<Three> in;
     std::vector<float> q{static_cast<float>(low), static_cast<float>(high)};
@@ -241,7 +259,7 @@ TEST(Samplers, SlopesAtTheEndsOfTheirStrata) {
     for (const cl_uint strata : {1u, 2u, 3u, 4096u, 65536u, 1u << 24})
         for (const cl_uint whole : {0u, strata / 2, strata - 1}) {
             const char *at =
-                "(float2)(slope_at(a, b, uniform_open(c)), slope_at(b - 1u - a, b, 1.0f - uniform_open(c)))";
+                "(float2)(slope_at(a, b, 0, uniform_open(c)).t, slope_at(b - 1u - a, b, 0, 1.0f - uniform_open(c)).t)";
             for (const auto &[bits, fraction] : {std::pair{least, 0x1p-24}, std::pair{most, 1.0 - 0x1p-24}}) {
                 const auto [there, back] = probe(at, {{whole, strata, bits}})[0];
                 EXPECT_EQ(there, -back) << whole << " of " << strata;
@@ -252,6 +270,40 @@ TEST(Samplers, SlopesAtTheEndsOfTheirStrata) {
                 EXPECT_CLOSE(there, wanted, 2e-6, 2e-7) << whole << " of " << strata << " + " << fraction;
             }
         }
+}
+
+// On a line facets' weights are their strata's masses: laid end to end they fill the density, and a facet lies anywhere
+// in its own.
+TEST(Samplers, FacetsOfALineLieInTheirStrata) {
+    constexpr double rounding = 1e-6; // the quantile's, and those of a normal, as mass
+    for (const cl_uint strata : {1u, 2u, 7u, 8u, 15u, 256u, 4096u, cl_uint{drawn}}) {
+        const LineFacets line(strata, 16);
+        double below = 0.0;
+        for (std::size_t k = 0; k < strata; ++k) {
+            ASSERT_GT(line.mass_at(k), below - rounding) << k << " of " << strata;
+            below += line.mass_of(k);
+            ASSERT_LT(line.mass_at(k), below + rounding) << k << " of " << strata;
+        }
+        EXPECT_CLOSE(below, 1.0, 1e-6, 0.0) << strata;
+        const double equal = line.mass_of(strata / 2), outermost = line.mass_of(strata - 1);
+        EXPECT_CLOSE(outermost / equal, strata < 8 ? 1.0 : 0.5 / (strata / 8), 1e-6, 0.0) << strata;
+    }
+}
+
+TEST(Samplers, FacetsOfALineAreUniformInTheirStrata) {
+    constexpr cl_uint strata = 256;
+    Cells cells, shifted;
+    for (cl_uint seed = 0; seed < 64; ++seed) {
+        const LineFacets line(strata, seed);
+        double below = 0.0, last = 0.0;
+        for (std::size_t k = 0; k < strata; below += line.mass_of(k++)) {
+            const double place = (line.mass_at(k) - below) / line.mass_of(k);
+            if (k % 2 == 1) cells.add(place, last), shifted.add(place * place, last);
+            last = place;
+        }
+    }
+    EXPECT_TRUE(cells.are_even()) << cells.p_value();
+    EXPECT_FALSE(shifted.are_even());
 }
 
 TEST(Samplers, FacetsOfXHaveItsDensity) {

@@ -54,6 +54,18 @@ smx_status reference(const Shared &s, smx_context context, Bits &bits) {
     return status;
 }
 
+smx_status geometric(const Shared &s, smx_context context, Bits &bits) {
+    test::Image image;
+    const smx_render_options options = test::make_options(4);
+    smx_geometric_options paths = SMX_GEOMETRIC_OPTIONS_INIT;
+    paths.tile = 64;
+    paths.realisations = 2;
+    paths.bounces = 1;
+    const smx_status status = smx_render_geometric(context, s.brdf, &scene, &options, &paths, image.out(), nullptr);
+    if (status == SMX_OK) bits = bits_of(image);
+    return status;
+}
+
 smx_status evaluated(const Shared &s, smx_context context, Bits &bits) {
     const std::vector<float> wi{0.6f, 0.0f, 0.8f, 0.0f, 0.0f, 1.0f}, wo{0.0f, 0.0f, 1.0f, 0.0f, 0.6f, 0.8f};
     bits.assign(6, -1.0f);
@@ -80,6 +92,7 @@ smx_status cancelled(const Shared &s, smx_context context, Bits &bits) {
 std::vector<Work> all_work(const Shared &s) {
     return {[&](smx_context c, Bits &b) { return filtered(s, c, b); },
             [&](smx_context c, Bits &b) { return reference(s, c, b); },
+            [&](smx_context c, Bits &b) { return geometric(s, c, b); },
             [&](smx_context c, Bits &b) { return evaluated(s, c, b); },
             [&](smx_context c, Bits &b) { return geometry(c, b); },
             [&](smx_context c, Bits &b) { return cancelled(s, c, b); }};

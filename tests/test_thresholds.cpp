@@ -28,6 +28,7 @@ bool has(smx::Grade grade) { return grade != smx::Grade::Double || context().inf
 struct Threshold {
     const char *call;
     double at;
+    bool is_of_widening = false;
 };
 
 const std::vector<Threshold> &thresholds() {
@@ -42,7 +43,7 @@ const std::vector<Threshold> &thresholds() {
         {"angle_modulo_pi(x, (realW)1.0f)", 1.0},
         {"angle_modulo_pi((realW)1.0f, x)", 1.0},
         {"slope_quantile((float)x)", 1.6869e-3},
-        {"slope_at(4, 9, (float)x) + 1.0f", 0.5},
+        {"slope_at(4, 9, 1, (float)x).t + 1.0f", 0.5},
         {"beckmann_sigma((realW)1e-19f, x)", 0x1p-126},
         {"beckmann_sigma((realW)1.0f, x)", 0x1p-126},
         {"beckmann_sigma((realW)0.34f, x)", 0.01},
@@ -50,15 +51,60 @@ const std::vector<Threshold> &thresholds() {
         {"g2_over_po(x, (realW)1.0f, (realW)1e-3f, (realW)0.1f) * 1e34f", 1e-34},
         {"facet_slope(x, (realW)1e-9f)", 1.0},
         {"facet_slope((realW)1.0f, x)", 0x1p-126},
+        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-5, true},
+        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-4, true},
+        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-5, true},
+        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-4, true},
+        {"facet_at_horizon(x)", 1e-12, true},
+        {"beside(facet_at_horizon((x - 1.0f) * 1e-6f), facet_at_horizon((realW)1.0f))", 1.0, true},
     };
     return list;
 }
+
+// The quadrature's integrand (widen.clh) at a facet so steep that lobe or surface end, of the widest there are, and at
+// one that wi just sees, for the lobe of the least masking.
+const char *facets = R"(
+__constant QuadratureLobe widest = {.alpha2 = 1e8f, .inv_alpha2 = 1e-8f};
+__constant QuadratureLobe sharpest = {.alpha2 = 1e-8f, .inv_alpha2 = 1e8f};
+
+inline Chart plain_chart(void) {
+    Chart c = {.i = {(realW)0.5f, (realW)0.0f, (realW)0.0f}, .inv_both = (realW)1.0f};
+    c.o = c.i;
+    return c;
+}
+
+// h is wh's share of the facet.
+inline realW facet_off_lobe(realW h) {
+    Chart c = plain_chart();
+    c.i.at_m = c.o.at_m = 0.5f * h;
+    c.h1 = (realW)1.0f;
+    return integrand(&widest, 0, 0, &c, (realW)0.0f, (realW)0.0f, (realW)0.0f);
+}
+
+// z = 1 - 1 + z is the normal's share of it. X's alphas are 1e4.
+inline realW facet_off_surface(realW z) {
+    Chart c = plain_chart();
+    c.z.t1 = c.z.t2 = (realW)1.0f;
+    c.g11 = (realW)1e-4f;
+    return integrand(&widest, 0, 0, &c, (realW)-1.0f, z, (realW)0.0f);
+}
+
+inline realW facet_at_horizon(realW cos_i) {
+    Chart c = plain_chart();
+    c.i.at_m = cos_i;
+    return integrand(&sharpest, 0, 0, &c, (realW)0.0f, (realW)0.0f, (realW)0.0f);
+}
+
+// Of numbers that may be 0, their quotient with another.
+inline realW beside(realW value, realW scale) { return 1.0f + value / scale; }
+)";
 
 // The function at 401 places about its threshold, within 1e-4 of it.
 template <typename Real>
 std::vector<double> sweep_as(const Threshold &t, smx::Grade grade) {
     const std::string source = smx::kernel_source("beckmann.clh") + smx::kernel_source("masking.clh") +
-                               smx::kernel_source("quantile.clh") + R"(
+                               smx::kernel_source("quantile.clh") +
+                               (t.is_of_widening ? smx::kernel_source("widen.clh") + facets : "") + R"(
 __kernel void apply(__global real *out, __global const real *a) {
     size_t at = get_global_id(0);
     realW x = a[at];
@@ -66,7 +112,8 @@ __kernel void apply(__global real *out, __global const real *a) {
     std::vector<Real> x;
     for (int k = -200; k <= 200; ++k) x.push_back(static_cast<Real>(t.at * (1.0 + k * 5e-7)));
     cl::Program program(context().cl(), source);
-    program.build(smx::build_options({{"W", 1}, {"GRADE", static_cast<int>(grade)}}).c_str());
+    program.build(
+        smx::build_options({{"W", 1}, {"GRADE", static_cast<int>(grade)}, {"WIDENING", 2}, {"PER_LOBE", 1}}).c_str());
     cl::Kernel kernel(program, "apply");
     const cl::Buffer out = smx::empty_buffer<Real>(context(), x.size()), in = smx::buffer_from(context(), x);
     kernel.setArg(0, out);

@@ -154,8 +154,9 @@ TEST(Tiles, TilingsAndWorkGroupsGiveTheSameBits) {
     material.lobes = some_lobes();
     material.theta_d = {0.0, 1.5707963267948966};
     material.fresnel = {{{{1.0, 0.5}, {0.5, 0.5}, {0.2, 0.1}}}};
+    const smx::Simulated all = smx::everything(material, smx::all_effects, inner_scene.masking);
     const auto filtered = [&](const smx::Tiling &tiling) {
-        return *smx::shade_filtered(context, material, inner_scene, inner_options(tiling)).image;
+        return *smx::shade_filtered(context, material, inner_scene, inner_options(tiling), all).image;
     };
     const smx::Image b = filtered(tilings[0]);
     for (const smx::Tiling &tiling : tilings)

@@ -1,6 +1,7 @@
 // What tradeoff makes of its measurements, on measurements whose answer is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "close.h"
@@ -148,10 +149,33 @@ TEST(Tradeoff, PlansHaveNoPointTwice) {
     const SweepAxes axes{{Method::mis, Method::geometric, Method::shared}, 64, {1, 16}, {0, SMX_WIDENING_AUTO}};
     std::vector<std::string> names;
     for (const Configuration &configuration : plan_of(axes)) names.push_back(name_of(configuration));
-    EXPECT_EQ(names, (std::vector<std::string>{"mis 2", "mis 4", "mis 16", "mis 64", "geometric 16", "geometric 64",
-                                               "shared N=1 order 0", "shared N=16 order 0", "shared N=1 order auto",
-                                               "shared N=16 order auto", "mis 64 fast", "mis 64 double",
-                                               "mis 64 separable", "shared N=1 order 0 fast",
-                                               "shared N=1 order 0 double", "shared N=1 order 0 separable"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"mis 2",
+                                               "mis 4",
+                                               "mis 16",
+                                               "mis 64",
+                                               "geometric 16",
+                                               "geometric 64",
+                                               "shared N=1 order 0",
+                                               "shared N=16 order 0",
+                                               "shared N=1 order auto",
+                                               "shared N=16 order auto",
+                                               "mis 64 fast",
+                                               "mis 64 double",
+                                               "mis 64 separable",
+                                               "mis 64 no-masking",
+                                               "mis 64 no-shadowing",
+                                               "shared N=1 order 0 fast",
+                                               "shared N=1 order 0 double",
+                                               "shared N=1 order 0 separable",
+                                               "shared N=1 order 0 no-masking",
+                                               "shared N=1 order 0 no-shadowing",
+                                               "shared N=1 order 0 no-fresnel",
+                                               "shared N=1 order 0 effects-auto"}));
+    const SweepAxes turned{{Method::per_lobe}, 64, {8}, {1}, true};
+    names.clear();
+    for (const Configuration &configuration : plan_of(turned)) names.push_back(name_of(configuration));
+    EXPECT_EQ(names.size(), 10u);
+    for (const char *name : {"per-lobe N=8 order 1 no-lobe-color", "per-lobe N=8 order 1 no-anisotropy"})
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
     EXPECT_TRUE(plan_of({{Method::mis, Method::geometric}, 1, {1}, {0}}).empty());
 }

@@ -34,6 +34,7 @@ test::Material material_of(const Scenery &s) {
 std::vector<double> eval(const Scenery &s, const test::Directions &pairs, int order,
                          smx_grade grade = SMX_GRADE_PRECISE, smx_context where = test::context()) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.widening_order = order;
     options.grade = grade;
     std::vector<float> fcos(3 * pairs.count());
@@ -345,6 +346,7 @@ namespace {
 test::Image render(smx_material material, const smx_scene &scene, int order, smx_render_report *report = nullptr,
                    double tolerance = 0.02) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.widening_order = order;
     options.widening_tolerance = tolerance;
     test::Image image;

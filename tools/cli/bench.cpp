@@ -46,13 +46,14 @@ void print_text(const std::vector<BenchRow> &rows, const std::string &device) {
 }
 
 void run(const BenchFlags &flags) {
-    Progress progress(shading_jobs + widening_jobs + reference_jobs + geometric_jobs);
+    Progress progress(shading_jobs + widening_jobs + effects_jobs + reference_jobs + geometric_jobs);
     BenchJob job{open_context(flags.render), flags.quick ? 1 : 7, progress, {}};
     const smx_device_info device = info_of(job.context);
     if (device.devices > 1)
         throw CommandError("bench measures one device, and these are " + std::to_string(device.devices));
     bench_shading(job);
     bench_widening(job);
+    bench_effects(job);
     bench_reference(job);
     bench_geometric(job);
     progress.clear();
@@ -79,7 +80,8 @@ void add_bench(CLI::App &app) {
         "Nanoseconds per evaluation, or per sample of the reference, on the whole device: medians of runs in which a\n"
         "case and its baselines take turns. Baselines: scalar-one-core, a loop of floats and libm; builtin-kernel and\n"
         "plain-kernel, one evaluation or sample per work-item with built-in functions; closed-form, the same shading\n"
-        "without the quadrature; statistical, a sample of the statistical reference, for a path of the geometric one.");
+        "without the quadrature; all-effects, the same with what `effects.*` leaves out; statistical, a sample of the "
+        "statistical reference, for a path of the geometric one.");
     command->callback([flags] { run(*flags); });
 }
 

@@ -9,6 +9,7 @@ namespace slopemix::cli {
 namespace {
 
 constexpr std::uint32_t samples = 256; // of 16 realisations
+constexpr std::uint32_t bounces = 4;
 
 smx_scene rough_sphere() {
     smx_scene scene = SMX_SCENE_INIT;
@@ -29,12 +30,18 @@ void bench_geometric(BenchJob &job) {
     job.progress.attach(options);
     render_geometric(job.context, brdf, scene, options, geometric); // compile
     render_reference(job.context, brdf, scene, options);
-    Times paths, statistical;
+    smx_geometric_options further = geometric;
+    further.bounces = bounces;
+    render_geometric(job.context, brdf, scene, options, further);
+    Times paths, followed, statistical;
     for (int round = 0; round < job.rounds; ++round) {
         paths.add(render_geometric(job.context, brdf, scene, options, geometric).report);
+        followed.add(render_geometric(job.context, brdf, scene, options, further).report);
         statistical.add(render_reference(job.context, brdf, scene, options).report);
     }
     job.rows.push_back({"geometric.path", SMX_GRADE_PRECISE, paths.median(), "statistical", statistical.median()});
+    job.rows.push_back(
+        {"effects.interreflection", SMX_GRADE_PRECISE, followed.median(), "geometric.path", paths.median()});
     job.progress.finish();
 }
 

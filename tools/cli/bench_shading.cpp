@@ -12,6 +12,7 @@ constexpr int runs_per_round = 5; // of a few milliseconds each
 
 Rendering shade(BenchJob &job, const Material &material, smx_grade grade, int order = 0) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.grade = grade;
     options.widening_order = order;
     job.progress.attach(options);

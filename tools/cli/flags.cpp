@@ -49,6 +49,22 @@ std::string options_text(const FitFlags &flags) {
            (flags.lobes == SMX_LOBES_AUTO ? "auto" : std::to_string(flags.lobes));
 }
 
+namespace {
+
+void add_masking_flag(CLI::App &command, RenderFlags &flags) {
+    add_choice(command, "--g", flags.masking, maskings,
+               "Masking and shadowing, height-correlated or separable (default correlated)");
+}
+
+void add_device_flag(CLI::App &command, RenderFlags &flags) {
+    command
+        .add_option("--device", flags.device,
+                    "OpenCL device: its number in `slopemix info`, or part of its name; several work together")
+        ->type_name("D[,D...]");
+}
+
+} // namespace
+
 void add_resolution_flag(CLI::App &command, RenderFlags &flags) {
     add_parsed(command, "--res", flags.resolution, parse_resolution,
                "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
@@ -61,16 +77,19 @@ void add_seed_flag(CLI::App &command, RenderFlags &flags) {
 }
 
 void add_device_flags(CLI::App &command, RenderFlags &flags) {
-    command
-        .add_option("--device", flags.device,
-                    "OpenCL device: its number in `slopemix info`, or part of its name; several work together")
-        ->type_name("D[,D...]");
+    add_device_flag(command, flags);
     const auto parse_parts = [](const std::string &text) {
         return static_cast<std::uint32_t>(parse_count(text, sub_devices_range));
     };
     add_parsed(command, "--sub-devices", flags.sub_devices, parse_parts,
                "Cut each device into N like sub-devices, which work together (default 1)")
         ->type_name("N");
+}
+
+void add_view_flags(CLI::App &command, RenderFlags &flags) {
+    add_resolution_flag(command, flags);
+    add_masking_flag(command, flags);
+    add_device_flag(command, flags);
 }
 
 void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
@@ -103,8 +122,7 @@ void add_grade_flag(CLI::App &command, RenderFlags &flags) {
 void add_render_flags(CLI::App &command, RenderFlags &flags) {
     add_sampling_flags(command, flags);
     add_choice(command, "--lookup", flags.lookup, lookups, "Table lookup of the reference (default linear)");
-    add_choice(command, "--g", flags.masking, maskings,
-               "Masking and shadowing, height-correlated or separable (default correlated)");
+    add_masking_flag(command, flags);
     add_grade_flag(command, flags);
 }
 

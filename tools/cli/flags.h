@@ -84,7 +84,9 @@ struct RenderFlags {
     smx_grade grade = SMX_GRADE_PRECISE;
     std::int32_t widening_order = 0; // of filtered images
     double widening_tolerance = 0.02;
-    std::string device; // empty: the library's choice
+    std::uint32_t effects = SMX_EFFECTS_ALL; // an experiment leaves nothing out
+    double effect_tolerance = 1e-3;          // of SMX_EFFECTS_AUTO
+    std::string device;                      // empty: the library's choice
     std::uint32_t sub_devices = 0;
 
     bool has_auto_order() const { return widening_order == SMX_WIDENING_AUTO; }
@@ -92,9 +94,12 @@ struct RenderFlags {
 
 void add_resolution_flag(CLI::App &command, RenderFlags &flags);
 void add_seed_flag(CLI::App &command, RenderFlags &flags);
-void add_device_flags(CLI::App &command, RenderFlags &flags);
+void add_device_flags(CLI::App &command, RenderFlags &flags); // --device and --sub-devices
 
-// These and the samples; their help names the values in `flags` as the defaults.
+// Resolution, masking and device: of an image that draws no samples.
+void add_view_flags(CLI::App &command, RenderFlags &flags);
+
+// Resolution, samples, seed and device; their help names the values in `flags` as the defaults.
 void add_sampling_flags(CLI::App &command, RenderFlags &flags);
 
 void add_grade_flag(CLI::App &command, RenderFlags &flags);

@@ -42,6 +42,7 @@ int run(int argc, char **argv) {
     add_sheet(app);
     add_budget(app);
     add_tradeoff(app);
+    add_effects(app);
     add_compare(app);
     add_bench(app);
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "commands.h"
+#include "effect_flags.h"
 #include "exposure.h"
 #include "input.h"
 #include "output.h"
@@ -16,23 +17,13 @@ namespace slopemix::cli {
 
 namespace {
 
-constexpr NumberRange rho_range = {-1.0, 1.0}; // its ends are refused: a degenerate covariance
-constexpr NumberRange mean_slope_range = {-1e4, 1e4};
-
-double parse_rho(const std::string &text) {
-    const double rho = parse_number(text, rho_range);
-    if (rho == rho_range.low || rho == rho_range.high)
-        throw std::invalid_argument("'" + text + "' is not between -1 and 1");
-    return rho;
-}
-
 void require_legal_usage(const RenderJob &job) {
     if (std::filesystem::path(job.out).extension() != ".exr")
         throw CLI::ValidationError("--out", "'" + job.out + "' does not end in .exr");
     if (!job.is_filtered() && is_material_file(job.input))
         throw CLI::ValidationError("INPUT",
                                    "the reference needs a measured table, and '" + job.input + "' is a material file");
-    if (job.uniform_light && !job.is_geometric())
+    if (job.scene.uniform_light && !job.is_geometric())
         throw CLI::ValidationError("--light", "uniform light needs --integrator geometric");
     if (job.is_geometric()) return require_legal_realisations(job.geometric, job.flags.spp, job.errors);
     require_legal_sampling(job.flags);
@@ -49,7 +40,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
                 std::cerr << "slopemix: note: " << flag << " has no effect with --integrator "
                           << word_for(job.integrator, integrators) << '\n';
     };
-    note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance"});
+    note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance", "--effect-tolerance"});
     note(!job.is_reference(), {"--target-error", "--sampler"});
     note(job.is_filtered(), {"--spp", "--seed", "--lookup", "--errors"});
     note(job.is_geometric(), {"--g", "--grade"});
@@ -75,12 +66,15 @@ Rendered render_filtered(const RenderJob &job, const smx_scene &view, const smx_
         is_material_file(job.input) ? load_material(job) : fit(invert(open_brdf(job.input)), job.fit);
     const smx_material_info info = info_of(material);
     const smx_device_info device = info_of(context);
-    return {render_filtered(context, material, view, options),
-            info.name,
-            info.model,
-            info.lobes,
-            device.name,
-            device.devices};
+    Rendered rendered = {render_filtered(context, material, view, options),
+                         info.name,
+                         info.model,
+                         info.lobes,
+                         device.name,
+                         device.devices};
+    rendered.effects = SMX_EFFECT_REPORT_INIT;
+    check(smx_material_effects(material.get(), &view, &options, &*rendered.effects));
+    return rendered;
 }
 
 // By one of the references, which take a table.
@@ -99,8 +93,8 @@ Rendered render_table(const RenderJob &job, const smx_scene &view, const smx_ren
 
 // Into memory, or where there is a path, straight into that file.
 Rendered render(const RenderJob &job, const char *exr_path) {
-    smx_scene view = scene(job.flags, job.displacement(), job.light_degrees);
-    view.light = job.uniform_light ? SMX_LIGHT_UNIFORM : SMX_LIGHT_DIRECTIONAL;
+    smx_scene view = scene(job.flags, job.scene.displacement(), job.scene.light_degrees);
+    view.light = job.scene.uniform_light ? SMX_LIGHT_UNIFORM : SMX_LIGHT_DIRECTIONAL;
     smx_render_options options = render_options(job.flags);
     options.errors = job.errors;
     options.exr_path = exr_path;
@@ -144,29 +138,6 @@ void run(const RenderJob &job) {
         print_text(job, rendered);
 }
 
-void add_scene_flags(CLI::App &command, RenderJob &job) {
-    const auto pair_in = [](NumberRange range) {
-        return [range](const std::string &text) { return parse_pair(text, range); };
-    };
-    const auto parse_light = [&job](const std::string &text) {
-        job.uniform_light = text == "uniform";
-        return job.uniform_light ? 0.0 : parse_number(text, light_range);
-    };
-    add_parsed(command, "--alpha", job.alpha, pair_in(alpha_range), "Roughness of the displaced surface; 0 is legal")
-        ->required()
-        ->type_name("AX,AY");
-    add_parsed(command, "--rho", job.rho, parse_rho, "Correlation of its two slopes, between -1 and 1 (default 0)")
-        ->type_name("R");
-    add_parsed(command, "--mean-slope", job.mean_slope, pair_in(mean_slope_range), "Its mean slope (default 0,0)")
-        ->type_name("MX,MY");
-    add_parsed(
-        command, "--light", job.light_degrees, parse_light,
-        "Azimuth of the light in degrees: 90 at the camera, 0 to the right, negative behind; or uniform: radiance 1 "
-        "from everywhere above (geometric)")
-        ->required()
-        ->type_name("PHI_DEG|uniform");
-}
-
 } // namespace
 
 void add_render(CLI::App &app) {
@@ -181,10 +152,12 @@ void add_render(CLI::App &app) {
                "The mixture widened by the surface, the measured table integrated over its facets, or rays against the "
                "surface itself")
         ->required();
-    add_scene_flags(*command, *job);
+    add_surface_flags(*command, job->scene);
+    add_light_flag(*command, job->scene, true);
     add_fit_flags(*command, job->fit);
     add_render_flags(*command, job->flags);
     add_widening_flags(*command, job->flags);
+    add_effect_flags(*command, job->flags);
     add_geometric_flags(*command, job->geometric);
     command->add_option("--out", job->out, "The image to write")->required()->type_name("X.exr");
     command->add_flag("--errors", job->errors,
@@ -201,6 +174,7 @@ void add_render(CLI::App &app) {
     command->callback([command, job] {
         job->lobes_given = command->count("--lobes") > 0;
         job->model_given = command->count("--model") > 0;
+        require_consistent_effects(*command, job->flags);
         note_flags_without_effect(*command, *job);
         if (job->is_geometric()) {
             job->flags.target_error = 0.0;

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <utility>
 
 #include "flags.h"
 #include "geometric_flags.h"
 #include "renderings.h"
+#include "scene_flags.h"
 
 namespace slopemix::cli {
 
@@ -18,10 +19,7 @@ constexpr Choice<Integrator> integrators[] = {
 struct RenderJob {
     std::string input, out;
     Integrator integrator = Integrator::filtered;
-    std::pair<double, double> alpha, mean_slope;
-    double rho = 0.0;
-    double light_degrees = 0.0;
-    bool uniform_light = false; // in its place
+    SceneFlags scene;
     FitFlags fit;
     bool lobes_given = false, model_given = false;
     RenderFlags flags;
@@ -30,9 +28,6 @@ struct RenderJob {
     bool png = false;
     bool json = false;
 
-    smx_displacement displacement() const {
-        return {alpha.first, alpha.second, rho, mean_slope.first, mean_slope.second};
-    }
     bool is_filtered() const { return integrator == Integrator::filtered; }
     bool is_reference() const { return integrator == Integrator::reference; }
     bool is_geometric() const { return integrator == Integrator::geometric; }
@@ -50,7 +45,8 @@ struct Rendered {
     std::uint32_t lobes = 0;            // of the filter
     std::string device;
     std::uint32_t devices = 1;
-    double exposure = 1.0; // of the PNG
+    double exposure = 1.0;                         // of the PNG
+    std::optional<smx_effect_report> effects = {}; // of the filter: what is left out, and why
 };
 
 void print_json(const RenderJob &job, const Rendered &rendered);

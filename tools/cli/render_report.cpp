@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "effect_flags.h"
+#include "effect_report.h"
 #include "render_job.h"
 #include "text.h"
 #include "widening_json.h"
@@ -31,11 +33,18 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["widening_tolerance"] =
         tolerance_json(job.flags.widening_tolerance, job.is_filtered() && job.flags.has_auto_order());
     json["widening_orders"] = job.is_filtered() ? Json(orders_of(rendered.rendering.report, rendered.lobes)) : Json();
-    json["alpha_x"] = job.alpha.first;
-    json["alpha_y"] = job.alpha.second;
-    json["rho"] = job.rho;
-    json["mean_slope"] = {job.mean_slope.first, job.mean_slope.second};
-    json["light_phi_deg"] = job.uniform_light ? Json() : Json(job.light_degrees);
+    json["effects"] = effect_names(rendered.rendering.report.effects);
+    json["effects_asked"] = effects_text(job.flags.effects);
+    json["effect_tolerance"] =
+        tolerance_json(job.flags.effect_tolerance, job.is_filtered() && job.flags.effects == SMX_EFFECTS_AUTO);
+    json["verdicts"] = rendered.effects ? verdicts_json(*rendered.effects) : Json();
+    json["lobes_shaded"] = job.is_filtered() ? Json(rendered.rendering.report.lobes) : Json();
+    json["left_out"] = rendered.effects ? Json(rendered.effects->left_out) : Json();
+    json["alpha_x"] = job.scene.alpha.first;
+    json["alpha_y"] = job.scene.alpha.second;
+    json["rho"] = job.scene.rho;
+    json["mean_slope"] = {job.scene.mean_slope.first, job.scene.mean_slope.second};
+    json["light_phi_deg"] = job.scene.uniform_light ? Json() : Json(job.scene.light_degrees);
     json["g"] = job.is_geometric() ? Json() : Json(word_for(job.flags.masking, maskings));
     json["grade"] = job.is_geometric() ? Json() : Json(word_for(job.flags.grade, grades));
     json["tile"] = job.is_geometric() ? Json(job.geometric.tile) : Json();
@@ -92,6 +101,8 @@ void print_text(const RenderJob &job, const Rendered &rendered) {
         for (int order : orders_of(report, rendered.lobes)) orders += ' ' + std::to_string(order);
         facts.emplace_back("widening", widening_text(job.flags.widening_order) + ", by lobe:" + orders);
     }
+    facts.emplace_back("effects", effects_text(report.effects));
+    if (rendered.effects) add_left_out(facts, *rendered.effects, rendered.lobes);
     if (has_error(job, report)) facts.emplace_back("standard error", general(report.standard_error, 3));
     facts.emplace_back("device", rendered.device);
     facts.emplace_back("seconds", fixed(report.seconds, 3) + " (on the device " + fixed(report.kernel_seconds, 3) +

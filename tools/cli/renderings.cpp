@@ -26,6 +26,8 @@ smx_render_options render_options(const RenderFlags &flags) {
     options.grade = flags.grade;
     options.widening_order = flags.widening_order;
     options.widening_tolerance = flags.widening_tolerance;
+    options.effects = flags.effects;
+    options.effect_tolerance = flags.effect_tolerance;
     return options;
 }
 

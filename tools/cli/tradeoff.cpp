@@ -158,10 +158,12 @@ void add_tradeoff(CLI::App &app) {
         "Times are medians of 5 warm runs or more. Errors are against a converged reference of the measured table,\n"
         "whose own standard error is at most a tenth of what is told: what is closer is at the floor. Beside mis or\n"
         "another sampler at 4096 samples, and per-lobe or shared with 8 lobes, stand their variants: the other grades\n"
-        "of arithmetic and separable masking. Noise goes away with samples, bias does not. docs/tradeoff.md has the\n"
+        "of arithmetic, separable masking, and each effect off in turn. Noise goes away with samples, bias does not. "
+        "docs/tradeoff.md has the\n"
         "schema of what is written.");
     command->callback([job] {
         complete(job->axes, job->quick);
+        job->axes.anisotropic = job->alpha.first != job->alpha.second;
         run(*job);
     });
 }

@@ -13,11 +13,33 @@ constexpr std::uint32_t realisations = GeometricFlags{}.realisations; // the few
 constexpr std::uint32_t geometric_most = 1024; // each costs it a hundred times what a sampler's does
 constexpr std::uint32_t variant_samples = 4096, variant_lobes = 8;
 
+bool any(Method, bool) { return true; }
+bool filters(Method method, bool) { return is_filtered(method); }
+bool own_curves(Method method, bool) { return method == Method::per_lobe; }
+bool anisotropic_surfaces(Method, bool anisotropic) { return anisotropic; }
+
+template <smx_effect effect>
+void without(Method method, smx_scene &, smx_render_options &options) {
+    constexpr std::uint32_t surface = SMX_EFFECT_MASKING | SMX_EFFECT_SHADOWING | SMX_EFFECT_HEIGHT_CORRELATION |
+                                      SMX_EFFECT_ANISOTROPY | SMX_EFFECT_MEAN_SLOPE;
+    constexpr std::uint32_t material = SMX_EFFECT_FRESNEL | SMX_EFFECT_LOBE_COLOR; // the table's, of references
+    const std::uint32_t all = is_filtered(method) ? surface | material : surface;
+    options.effects = all & ~std::uint32_t{effect};
+}
+
+// The surfaces of a sweep have no mean slope that could be left out.
 constexpr Variant all_variants[] = {
-    {"", [](smx_scene &, smx_render_options &) {}},
-    {"fast", [](smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_FAST; }},
-    {"double", [](smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_DOUBLE; }},
-    {"separable", [](smx_scene &scene, smx_render_options &) { scene.masking = SMX_G2_SEPARABLE; }},
+    {"", any, [](Method, smx_scene &, smx_render_options &) {}},
+    {"fast", any, [](Method, smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_FAST; }},
+    {"double", any, [](Method, smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_DOUBLE; }},
+    {"separable", any, [](Method, smx_scene &scene, smx_render_options &) { scene.masking = SMX_G2_SEPARABLE; }},
+    {"no-masking", any, without<SMX_EFFECT_MASKING>},
+    {"no-shadowing", any, without<SMX_EFFECT_SHADOWING>},
+    {"no-fresnel", filters, without<SMX_EFFECT_FRESNEL>},
+    {"no-lobe-color", own_curves, without<SMX_EFFECT_LOBE_COLOR>},
+    {"no-anisotropy", anisotropic_surfaces, without<SMX_EFFECT_ANISOTROPY>},
+    {"effects-auto", filters,
+     [](Method, smx_scene &, smx_render_options &options) { options.effects = SMX_EFFECTS_AUTO; }},
 };
 
 std::vector<Configuration> samplings(Method method, std::uint32_t most) {
@@ -81,6 +103,7 @@ std::vector<Configuration> plan_of(const SweepAxes &axes) {
     }
     for (const std::optional<Configuration> &base : {chosen_reference(points), chosen_filter(points)})
         for (std::size_t variant = 1; base && variant < variants().size(); ++variant) {
+            if (!variants()[variant].is_of(base->method, axes.anisotropic)) continue;
             points.push_back(*base);
             points.back().variant = variant;
         }

@@ -25,7 +25,8 @@ inline smx_model model_of(Method method) { return method == Method::shared ? SMX
 // A departure from the defaults, measured beside them.
 struct Variant {
     const char *word;
-    void (*apply)(smx_scene &scene, smx_render_options &options);
+    bool (*is_of)(Method method, bool anisotropic); // whether it departs at all
+    void (*apply)(Method method, smx_scene &scene, smx_render_options &options);
 };
 
 // The first one changes nothing, and its word is empty.
@@ -50,6 +51,7 @@ struct SweepAxes {
     std::uint32_t samples = 0; // the most per pixel
     std::vector<std::uint32_t> lobes;
     std::vector<std::int32_t> orders;
+    bool anisotropic = false; // the surface
 };
 
 // The filter and the reference that variants are of: per-lobe before shared and mis before the other samplers, with the

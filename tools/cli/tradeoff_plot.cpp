@@ -88,7 +88,7 @@ class Chart {
                "\nset logscale xy\nset format xy '10^{%T}'\nset xlabel 'seconds on the device, per image'\n"
                "set ylabel " +
                chart_text(error) + "\nset key at screen " + fixed(left_, 4) +
-               ", screen 0.462 left top Left reverse horizontal maxcols 4 width -2\n" + range("x", time_) +
+               ", screen 0.47 left top Left reverse horizontal maxcols 4 width -2\n" + range("x", time_) +
                range("y", error_) + plot_ + '\n';
     }
 
@@ -139,7 +139,7 @@ Rows rows_of_front(const TradeoffResult &result) {
 std::string methods_chart(const TradeoffResult &result) {
     Chart chart("methods", 0.055, 0.575);
     chart.draw(chart.add(rows_of_front(result)) +
-               " using 1:2 with lines linewidth 9 linecolor '#ece7b4' title 'Pareto set of all points'");
+               " using 1:2 with lines linewidth 9 linecolor '#ece7b4' title 'Pareto set'");
     for (const auto &[word, method] : methods) {
         const std::string data = chart.add(rows_of(result, [&, method = method](const Configuration &c) {
             return c.method == method && (!is_filtered(method) || c.order == 0);
@@ -161,7 +161,7 @@ std::string methods_chart(const TradeoffResult &result) {
             "o");
     }
     chart.draw(chart.level(floor_of(result.truth)) +
-               " with lines dashtype 3 linewidth 1 linecolor '#555555' title 'floor: ten times the truth’s error'");
+               " with lines dashtype 3 linewidth 1 linecolor '#555555' title 'floor of the truth'");
     return chart.script("All methods", "relRMSE against the measured table");
 }
 
@@ -188,20 +188,20 @@ std::string widening_chart(const TradeoffJob &job, const TradeoffResult &result)
     for (const Method sampler : {Method::grid, Method::sobol, Method::mis}) {
         const std::string data =
             chart.add(rows_of(result, [&](const Configuration &c) { return c.method == sampler; }));
-        if (!data.empty())
-            chart.draw(data + " using 1:2 with linespoints linewidth 1 pointsize 0.4 pointtype " +
-                       std::to_string(style_of(sampler).point) + " linecolor '#bbbbbb' title '" +
-                       word_for(sampler, methods) + '\'');
+        if (data.empty()) continue;
+        chart.draw(data + " using 1:2 with linespoints linewidth 1 pointsize 0.4 pointtype " +
+                   std::to_string(style_of(sampler).point) + " linecolor '#bbbbbb' title '" +
+                   word_for(sampler, methods) + '\'');
     }
     for (std::size_t k = 0; k < shades.size(); ++k) {
         const std::string data = chart.add(rows_of_widening(result, method, job.axes.lobes[k]));
         if (data.empty()) continue; // of auto alone, which is no order
-        chart.draw_curve(
-            data, {shades[k].c_str(), 7, k % 2 == 0 ? "-0.9,-0.4" : "0.9,0.4"},
-            std::string(word_for(method, methods)) + ", N = " + std::to_string(job.axes.lobes[k]) + ", by order");
+        chart.draw_curve(data, {shades[k].c_str(), 7, k % 2 == 0 ? "-0.9,-0.4" : "0.9,0.4"},
+                         "N = " + std::to_string(job.axes.lobes[k]));
     }
     if (chart.is_empty()) return "";
-    return chart.script("The widening, by order", "relRMSE against the fitted base");
+    return chart.script(std::string("The widening of ") + word_for(method, methods) + ", by order",
+                        "relRMSE against the fitted base");
 }
 
 } // namespace

@@ -35,7 +35,7 @@ Rendering TradeoffRenderer::render(const Configuration &configuration, std::uint
     smx_render_options options = this->options();
     options.seed += run;
     options.widening_order = configuration.order;
-    variants()[configuration.variant].apply(scene, options);
+    variants()[configuration.variant].apply(configuration.method, scene, options);
     if (is_filtered(configuration.method))
         return render_filtered(context_, fit(configuration).material, scene, options);
     options.spp = configuration.samples;
