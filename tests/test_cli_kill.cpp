@@ -1,5 +1,5 @@
-// fit and sheet, killed at moments drawn at random until they are done: what is finished is whole at any moment, and in
-// the end all is as if nothing had happened.
+// fit, sheet and tradeoff, killed at moments drawn at random until they are done: what is finished is whole at any
+// moment, and in the end all is as if nothing had happened.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -40,6 +40,24 @@ Arguments fit(const test::TempDir &out) {
 Arguments sheet(const test::TempDir &out) {
     return {"sheet", "builtin:conductor", "--res", "16",    "--spp",    "1024",    "--radii",
             "0.1",   "--lobes",           "1,2",   "--out", out.path(), "--resume"};
+}
+
+Arguments tradeoff(const test::TempDir &out) {
+    return {"tradeoff",
+            "builtin:conductor",
+            "--res",
+            "16",
+            "--samples",
+            "64",
+            "--methods",
+            "mis,shared",
+            "--lobes",
+            "1",
+            "--out",
+            out.path(),
+            "--widening-order",
+            "0",
+            "--resume"};
 }
 
 bool is_temporary(const std::string &name) { return name.starts_with("."); }
@@ -96,5 +114,28 @@ void expect_survives_kills(const char *what, Arguments (*command)(const test::Te
 } // namespace
 
 TEST(CliKill, Fit) { expect_survives_kills("fit", fit, 4); }
+
+// Charts and Pareto set are of times, which no two runs have in common.
+TEST(CliKill, Tradeoff) {
+    const auto errors_in = [](const test::TempDir &dir) {
+        std::vector<json> errors;
+        const json report = json::parse(test::read_file(dir / "tradeoff.json"));
+        for (const json &point : report.at("points"))
+            errors.push_back({point.at("name"), point.at("relrmse"), point.at("noise"), point.at("widening")});
+        return errors;
+    };
+    const test::TempDir whole;
+    const auto start = Clock::now();
+    ASSERT_CLI_OK(test::cli(tradeoff(whole)));
+    const double seconds = seconds_since(start);
+    test::Random random(84);
+    for (int kills = 0; kills < 4;) {
+        const test::TempDir dir;
+        kills += run_killed(tradeoff(dir), dir, seconds, random);
+        ASSERT_EQ(dir.names(), whole.names());
+        EXPECT_EQ(errors_in(dir), errors_in(whole));
+        EXPECT_EQ(test::read_file(dir / "truth.exr"), test::read_file(whole / "truth.exr"));
+    }
+}
 
 TEST(CliKill, Sheet) { expect_survives_kills("sheet", sheet, 4); }

@@ -9,7 +9,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "budget", "compare", "bench"};
+const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "budget", "tradeoff", "compare", "bench"};
 
 Arguments render(const std::string &out) {
     return {"render",       "builtin:conductor",
@@ -56,7 +56,7 @@ TEST(CliUsage, WrongUsageIsTwo) {
     EXPECT_CLI_FAILS(2, "", Arguments{});
     EXPECT_CLI_FAILS(2, "frobnicate", Arguments{"frobnicate"});
     EXPECT_CLI_FAILS(2, "--frobnicate", Arguments{"info", "--frobnicate"});
-    for (const char *command : {"synth", "fit", "render", "sheet", "budget", "compare"})
+    for (const char *command : {"synth", "fit", "render", "sheet", "budget", "tradeoff", "compare"})
         EXPECT_CLI_FAILS(2, "", Arguments{command});
     EXPECT_CLI_FAILS(2, "--out", Arguments{"fit", "builtin:conductor"});
     EXPECT_CLI_FAILS(2, "two-layer.binary", Arguments{"synth", "two-layer.binary", "--out", "x.binary"});

@@ -14,6 +14,7 @@ void add_fit(CLI::App &app);
 void add_render(CLI::App &app);
 void add_sheet(CLI::App &app);
 void add_budget(CLI::App &app);
+void add_tradeoff(CLI::App &app);
 void add_effects(CLI::App &app);
 void add_compare(CLI::App &app);
 void add_bench(CLI::App &app);

@@ -1,8 +1,10 @@
 // The flags that render, sheet and budget share.
 #include "flags.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include "text.h"
 
@@ -19,6 +21,12 @@ constexpr CountRange order_range = {0, SMX_WIDENING_MAX_ORDER};
 bool is_square(std::uint32_t value) {
     const auto root = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(value))));
     return root * root == value;
+}
+
+void require_distinct(const std::string &text, const auto &values, auto to_text) {
+    for (auto later = values.begin(); later != values.end(); ++later)
+        if (std::find(values.begin(), later, *later) != later)
+            throw std::invalid_argument("'" + text + "' names " + to_text(*later) + " twice");
 }
 
 } // namespace
@@ -43,12 +51,6 @@ std::string options_text(const FitFlags &flags) {
 
 namespace {
 
-void add_resolution_flag(CLI::App &command, RenderFlags &flags) {
-    add_parsed(command, "--res", flags.resolution, parse_resolution,
-               "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
-        ->type_name("W[xH]");
-}
-
 void add_masking_flag(CLI::App &command, RenderFlags &flags) {
     add_choice(command, "--g", flags.masking, maskings,
                "Masking and shadowing, height-correlated or separable (default correlated)");
@@ -62,6 +64,27 @@ void add_device_flag(CLI::App &command, RenderFlags &flags) {
 }
 
 } // namespace
+
+void add_resolution_flag(CLI::App &command, RenderFlags &flags) {
+    add_parsed(command, "--res", flags.resolution, parse_resolution,
+               "Resolution, one number for a square; the sphere fits the smaller side (default 128)")
+        ->type_name("W[xH]");
+}
+
+void add_seed_flag(CLI::App &command, RenderFlags &flags) {
+    const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
+    add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
+}
+
+void add_device_flags(CLI::App &command, RenderFlags &flags) {
+    add_device_flag(command, flags);
+    const auto parse_parts = [](const std::string &text) {
+        return static_cast<std::uint32_t>(parse_count(text, sub_devices_range));
+    };
+    add_parsed(command, "--sub-devices", flags.sub_devices, parse_parts,
+               "Cut each device into N like sub-devices, which work together (default 1)")
+        ->type_name("N");
+}
 
 void add_view_flags(CLI::App &command, RenderFlags &flags) {
     add_resolution_flag(command, flags);
@@ -87,15 +110,8 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
         "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E" +
             default_error)
         ->type_name("E");
-    const auto parse_seed = [](const std::string &text) { return parse_count(text, {0, UINT64_MAX}); };
-    add_parsed(command, "--seed", flags.seed, parse_seed, "Seed of the reference (default 0)")->type_name("S");
-    add_device_flag(command, flags);
-    const auto parse_parts = [](const std::string &text) {
-        return static_cast<std::uint32_t>(parse_count(text, sub_devices_range));
-    };
-    add_parsed(command, "--sub-devices", flags.sub_devices, parse_parts,
-               "Cut each device into N like sub-devices, which work together (default 1)")
-        ->type_name("N");
+    add_seed_flag(command, flags);
+    add_device_flags(command, flags);
 }
 
 void add_grade_flag(CLI::App &command, RenderFlags &flags) {
@@ -115,6 +131,21 @@ std::int32_t parse_widening_order(const std::string &text) {
 }
 
 std::string widening_text(std::int32_t order) { return order == SMX_WIDENING_AUTO ? "auto" : std::to_string(order); }
+
+std::vector<std::uint32_t> parse_lobe_counts(const std::string &text) {
+    std::vector<std::uint32_t> lobes = parse_counts(text, lobes_range);
+    require_distinct(text, lobes, [](std::uint32_t count) { return std::to_string(count); });
+    return lobes;
+}
+
+std::vector<std::int32_t> parse_widening_orders(const std::string &text) {
+    std::vector<std::int32_t> orders;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) orders.push_back(parse_widening_order(word));
+    if (orders.empty() || text.back() == ',') throw std::invalid_argument("'" + text + "' is not a list of orders");
+    require_distinct(text, orders, widening_text);
+    return orders;
+}
 
 void add_widening_tolerance(CLI::App &command, RenderFlags &flags) {
     const auto parse_tolerance = [](const std::string &text) { return parse_number(text, tolerance_range); };

@@ -92,6 +92,10 @@ struct RenderFlags {
     bool has_auto_order() const { return widening_order == SMX_WIDENING_AUTO; }
 };
 
+void add_resolution_flag(CLI::App &command, RenderFlags &flags);
+void add_seed_flag(CLI::App &command, RenderFlags &flags);
+void add_device_flags(CLI::App &command, RenderFlags &flags); // --device and --sub-devices
+
 // Resolution, masking and device: of an image that draws no samples.
 void add_view_flags(CLI::App &command, RenderFlags &flags);
 
@@ -106,6 +110,10 @@ void add_render_flags(CLI::App &command, RenderFlags &flags);
 // 0..8, or auto as SMX_WIDENING_AUTO.
 std::int32_t parse_widening_order(const std::string &text);
 std::string widening_text(std::int32_t order);
+
+// Lists of numbers of lobes and of orders, of which none stands twice.
+std::vector<std::uint32_t> parse_lobe_counts(const std::string &text);
+std::vector<std::int32_t> parse_widening_orders(const std::string &text);
 
 // The order of filtered images, and the tolerance of auto.
 void add_widening_flags(CLI::App &command, RenderFlags &flags);

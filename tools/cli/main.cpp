@@ -41,6 +41,7 @@ int run(int argc, char **argv) {
     add_render(app);
     add_sheet(app);
     add_budget(app);
+    add_tradeoff(app);
     add_effects(app);
     add_compare(app);
     add_bench(app);

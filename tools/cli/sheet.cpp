@@ -1,11 +1,9 @@
 // slopemix sheet: the displaced-sphere experiment, 90 images with their errors and a contact sheet.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "commands.h"
@@ -79,25 +77,6 @@ void run(const SheetJob &job) {
         print_summary(job, result);
 }
 
-std::vector<std::uint32_t> parse_lobes(const std::string &text) {
-    std::vector<std::uint32_t> lobes = parse_counts(text, lobes_range);
-    for (auto later = lobes.begin(); later != lobes.end(); ++later)
-        if (std::find(lobes.begin(), later, *later) != later)
-            throw std::invalid_argument("'" + text + "' names " + std::to_string(*later) + " twice");
-    return lobes;
-}
-
-std::vector<std::int32_t> parse_orders(const std::string &text) {
-    std::vector<std::int32_t> orders;
-    std::istringstream words(text);
-    for (std::string word; std::getline(words, word, ',');) orders.push_back(parse_widening_order(word));
-    if (orders.empty() || text.back() == ',') throw std::invalid_argument("'" + text + "' is not a list of orders");
-    for (auto later = orders.begin(); later != orders.end(); ++later)
-        if (std::find(orders.begin(), later, *later) != later)
-            throw std::invalid_argument("'" + text + "' names " + widening_text(*later) + " twice");
-    return orders;
-}
-
 } // namespace
 
 void add_sheet(CLI::App &app) {
@@ -111,13 +90,14 @@ void add_sheet(CLI::App &app) {
     const auto parse_radii = [](const std::string &text) { return parse_numbers(text, alpha_range); };
     add_parsed(*command, "--radii", job->radii, parse_radii, "Roughnesses r, a row each (default 0.1,0.25,0.5)")
         ->type_name("R,...");
-    add_parsed(*command, "--lobes", job->lobes, parse_lobes, "Numbers of lobes, a filtered image each (default 1,8)")
+    add_parsed(*command, "--lobes", job->lobes, parse_lobe_counts,
+               "Numbers of lobes, a filtered image each (default 1,8)")
         ->type_name("N,...");
     const auto parse_models = [](const std::string &text) { return parse_choice(text, sheet_models); };
     add_parsed(*command, "--model", job->with_per_lobe, parse_models,
                "both: also the per-lobe model with the last of --lobes, behind the other columns (default shared)")
         ->type_name("shared|both");
-    add_parsed(*command, "--widening-order", job->widening_orders, parse_orders,
+    add_parsed(*command, "--widening-order", job->widening_orders, parse_widening_orders,
                "More columns: the per-lobe model with the last of --lobes, widened by quadrature of these orders, 0 to "
                "8, or auto; 0 is the closed form, and comes first")
         ->type_name("N,...");
