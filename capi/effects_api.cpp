@@ -1,6 +1,4 @@
 // smx_material_effects, smx_effect_name
-#include <chrono>
-
 #include "render_arguments.h"
 
 using namespace smx;
@@ -10,8 +8,6 @@ namespace {
 static_assert(SMX_EFFECT_COUNT == named_effects.size());
 static_assert(SMX_EFFECTS_ALL == all_effects && SMX_EFFECTS_AUTO == auto_effects);
 static_assert(static_cast<Effects>(SMX_EFFECT_INTERREFLECTION) == interreflection_effect);
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 } // namespace
 
@@ -23,7 +19,6 @@ smx_status smx_material_effects(smx_material material, const smx_scene *scene, c
         require_pointer(material, "material");
         require_pointer(scene, "scene");
         check_output(report, "report");
-        const double start = now();
         const EffectChoice choice = material->effects->judged(
             to_cpp(checked(scene, smx_scene{}, "scene")), to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options")));
         smx_effect_report made = SMX_EFFECT_REPORT_INIT;
@@ -35,7 +30,7 @@ smx_status smx_material_effects(smx_material material, const smx_scene *scene, c
         for (std::size_t k = 0; k < choice.simulated.lobes.size(); ++k) made.shaded[k] = choice.simulated.lobes[k];
         made.lobes = static_cast<uint32_t>(choice.simulated.lobes.size() - choice.dropped());
         made.left_out = choice.left_out;
-        made.seconds = now() - start;
+        made.seconds = choice.seconds;
         *report = made;
     });
 }

@@ -116,7 +116,10 @@ smx_status smx_render_filtered(smx_context context, smx_material material, const
                   [&](Context &c, const Scene &s, const RenderOptions &o) {
                       const auto kept = material->object;
                       const auto choices = material->effects;
-                      return shade_filtered(c, *kept, s, o, choices->simulated(s, o));
+                      const auto [simulated, seconds] = choices->simulated(s, o);
+                      Rendered rendered = shade_filtered(c, *kept, s, o, simulated);
+                      rendered.report.seconds += seconds;
+                      return rendered;
                   });
 }
 

@@ -600,7 +600,8 @@ typedef struct smx_effect_verdict {
     int supported;       /* by filtered shading */
     int on;              /* simulated, with these options */
     double contribution; /* relRMSE of the image with all effects but this one, as estimated; negative: no estimate, as
-                            for what is not supported, or where the image is black */
+                            for what is not supported, for height-correlation with SMX_G2_SEPARABLE, or where the
+                            image is black */
     char reason[160];    /* a sentence with its number */
 } smx_effect_verdict;
 
@@ -610,7 +611,7 @@ typedef struct smx_effect_report {
     uint32_t lobes;                /* that are shaded */
     uint8_t shaded[SMX_MAX_LOBES]; /* 1 for each of them, in ascending alpha */
     double left_out;               /* relRMSE of the image without all that is left out, as estimated */
-    double seconds;                /* of the judgement; about 0 where it was kept from an earlier call */
+    double seconds;                /* of the judgement; 0 where it was kept from an earlier call */
 } smx_effect_report;
 #define SMX_EFFECT_REPORT_INIT \
     { sizeof(smx_effect_report), {{SMX_EFFECT_MASKING, 0, 0, 0.0, ""}}, 0, {0}, 0.0, 0.0 }
@@ -706,7 +707,8 @@ typedef struct smx_choice {
  * materials, 0..SMX_MAX_CHOOSE_MATERIALS, by some orders of widening, and the reference of `brdf` by every sampler and
  * powers of two of samples. `brdf` may be NULL: the materials' fit reports then say how far they are from their table,
  * an upper bound as a rule. Of `render`, which may be NULL, seed, lookup, grade and progress count, and must be
- * those of the image; the prediction is for that seed.
+ * those of the image; the prediction is for that seed, and for an image of all effects: what SMX_EFFECTS_AUTO leaves
+ * out of a filtered one, up to its tolerance, comes on top.
  * Statuses: INVALID_ARGUMENT, NO_SOLUTION (no configuration will do: the message has the nearest, its error and its
  * seconds; a material without a fit to a table, where there is no brdf), KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY,
  * CANCELLED. */

@@ -1,5 +1,5 @@
-// What lib/choose_configuration.h takes for granted; docs/choosing.md says how each was measured, and
-// tools/calibrate-choice measures again.
+// What lib/choose_configuration.h takes for granted; docs/choosing.md says how it is used.
+// tools/calibrate-choice measures how errors fall; times are those of slopemix bench.
 #pragma once
 
 #include <array>

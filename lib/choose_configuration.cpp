@@ -166,6 +166,17 @@ Choice Chooser::best_within(double max_seconds, bool has_table) {
     return finished(of_least_error(tried_), text("the most accurate within ", max_seconds, " s"));
 }
 
+// What counts of an image's options. Nothing is left out of what is tried: the truth has all effects.
+RenderOptions counted(const RenderOptions &of_image) {
+    RenderOptions options;
+    options.seed = of_image.seed;
+    options.lookup = of_image.lookup;
+    options.grade = of_image.grade;
+    options.progress = of_image.progress;
+    options.tiling = of_image.tiling;
+    return options;
+}
+
 } // namespace
 
 void validate(const ChoiceRequest &r) {
@@ -181,9 +192,10 @@ void validate(const ChoiceRequest &r) {
 
 Choice choose_configuration(Context &context, const std::optional<ChoiceTable> &table,
                             const std::vector<const Material *> &materials, const Scene &scene,
-                            const RenderOptions &options, const ChoiceRequest &request) {
+                            const RenderOptions &image_options, const ChoiceRequest &request) {
     validate(scene);
     require_directional(scene);
+    const RenderOptions options = counted(image_options);
     validate(options.grade, context);
     validate(request);
     require(table || !materials.empty(), "there is neither a brdf nor a material to choose from");

@@ -69,12 +69,11 @@ Simulated least(const EffectTrial &trial, std::vector<Candidate> candidates, con
     return simulated;
 }
 
-// Without the effects that have no say in this image, nor correlation where there are not two to correlate.
+// Without the effects that have no say in this image.
 Effects with_say(Effects on, const std::vector<Candidate> &candidates) {
     for (const Candidate &candidate : candidates)
         if (candidate.has_no_say()) on &= ~static_cast<Effects>(candidate.effect);
-    const bool both = (on & masking_effect) && (on & shadowing_effect);
-    return both ? on : on & ~static_cast<Effects>(height_correlation_effect);
+    return without_lone_correlation(on);
 }
 
 std::string departure(double lambda, const char *direction) {
@@ -159,9 +158,9 @@ Simulated everything(const Material &material, Effects asked, Masking masking) {
 EffectChoice choose_effects(const Material &material, const Scene &scene, const RenderOptions &options) {
     validate(scene);
     require_directional(scene);
-    validate_tolerance(options);
     const Simulated asked = everything(material, options.effects, scene.masking);
     const Simulated all = everything(material, all_effects, scene.masking);
+    const double start = now_seconds();
     const EffectTrial trial(material, scene, all);
 
     EffectChoice choice;
@@ -171,7 +170,7 @@ EffectChoice choose_effects(const Material &material, const Scene &scene, const 
         candidates = candidates_of(trial, material, scene);
         if (options.effects == auto_effects) choice.simulated = least(trial, candidates, options);
         choice.left_out = trial.error(choice.simulated);
-        choice.simulated.on = with_say(choice.simulated.on, candidates);
+        if (options.effects == auto_effects) choice.simulated.on = with_say(choice.simulated.on, candidates);
     }
     for (const auto &[effect, name] : named_effects) {
         const auto judged = std::find_if(candidates.begin(), candidates.end(),
@@ -181,10 +180,12 @@ EffectChoice choose_effects(const Material &material, const Scene &scene, const 
         choice.verdicts.push_back({effect, (filtered_effects & effect) != 0, (choice.simulated.on & effect) != 0,
                                    judged == candidates.end() ? -1.0 : judged->error, why});
     }
+    choice.seconds = now_seconds() - start;
     return choice;
 }
 
 EffectChoice EffectChoices::judged(const Scene &scene, const RenderOptions &options) {
+    validate_tolerance(options);
     const std::scoped_lock lock(mutex_);
     const auto same = std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) {
         return kept.scene == scene && kept.effects == options.effects && kept.tolerance == options.effect_tolerance &&
@@ -192,6 +193,7 @@ EffectChoice EffectChoices::judged(const Scene &scene, const RenderOptions &opti
     });
     if (same != kept_.end()) {
         kept_.splice(kept_.begin(), kept_, same);
+        kept_.front().choice.seconds = 0.0;
         return kept_.front().choice;
     }
     kept_.push_front({scene, options.effects, options.effect_tolerance, options.widening_order,
@@ -200,9 +202,11 @@ EffectChoice EffectChoices::judged(const Scene &scene, const RenderOptions &opti
     return kept_.front().choice;
 }
 
-Simulated EffectChoices::simulated(const Scene &scene, const RenderOptions &options) {
-    if (options.effects != auto_effects) return everything(*material_, options.effects, scene.masking);
-    return judged(scene, options).simulated;
+std::pair<Simulated, double> EffectChoices::simulated(const Scene &scene, const RenderOptions &options) {
+    validate_tolerance(options);
+    if (options.effects != auto_effects) return {everything(*material_, options.effects, scene.masking), 0.0};
+    const EffectChoice choice = judged(scene, options);
+    return {choice.simulated, choice.seconds};
 }
 
 } // namespace smx

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effect_trial.h"
@@ -24,6 +25,7 @@ struct EffectChoice {
     Simulated simulated;
     std::vector<Verdict> verdicts; // as in named_effects
     double left_out = 0.0;         // relRMSE of the image without all that is left out, as estimated
+    double seconds = 0.0;          // of the judgement
     std::size_t dropped() const;   // lobes
 };
 
@@ -31,15 +33,15 @@ struct EffectChoice {
 // options.effect_tolerance of its root mean square. Throws InvalidArgument.
 EffectChoice choose_effects(const Material &material, const Scene &scene, const RenderOptions &options);
 
-// The choices of one material, kept: those of its last few scenes.
+// The choices of one material, kept: those of its last few scenes. One that was kept took no time.
 class EffectChoices {
   public:
     explicit EffectChoices(std::shared_ptr<const Material> material) : material_(std::move(material)) {}
 
     EffectChoice judged(const Scene &scene, const RenderOptions &options);
 
-    // What is to be simulated: of a set that is named, without any judgement.
-    Simulated simulated(const Scene &scene, const RenderOptions &options);
+    // What is to be simulated, and the time that it took to tell: none, and no judgement, of a set that is named.
+    std::pair<Simulated, double> simulated(const Scene &scene, const RenderOptions &options);
 
   private:
     struct Kept {

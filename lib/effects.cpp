@@ -45,7 +45,12 @@ Effects requested_effects(Effects asked, Effects supported, const char *integrat
             " does not simulate; it takes ", effects_text(supported));
     require(!separable || !(asked & height_correlation_effect),
             "effects has height-correlation, and the scene's masking is separable; leave one of them out");
-    return asked;
+    return without_lone_correlation(asked);
+}
+
+Effects without_lone_correlation(Effects on) {
+    const bool both = (on & masking_effect) && (on & shadowing_effect);
+    return both ? on : on & ~static_cast<Effects>(height_correlation_effect);
 }
 
 Displacement simplified(const Displacement &x, Effects on) {

@@ -55,6 +55,9 @@ constexpr Effects geometric_effects = surface_effects | interreflection_effect;
 // height-correlation where the scene's masking is separable.
 Effects requested_effects(Effects asked, Effects supported, const char *integrator, Masking masking);
 
+// Without height-correlation where there are not masking and shadowing to correlate.
+Effects without_lone_correlation(Effects on);
+
 // X without the effects that are off: one variance, the mean of its two, for both axes; no mean slope.
 Displacement simplified(const Displacement &x, Effects on);
 

@@ -73,10 +73,16 @@ Effects geometric_effects_of(const RenderOptions &options, std::uint32_t bounces
     return bounces > 0 ? on : on & ~static_cast<Effects>(interreflection_effect);
 }
 
-// What interreflection adds to the image, relRMSE, by a pilot: the scene in little, with it and without. Both follow
-// the same paths as far as both go; what is left of their noise counts as if it were light.
-double interreflection_share(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
-                             const RenderOptions &options, const GeometricOptions &geometric) {
+struct Interreflection {
+    double share = -1.0; // of the image, relRMSE; negative: not judged
+    RenderReport cost;   // times only
+};
+
+// What interreflection adds to the image, by a pilot: the scene in little, with it and without. Both follow the same
+// paths as far as both go; what is left of their noise counts as if it were light.
+Interreflection judge_interreflection(Context &context, const Brdf &brdf, const ProposalSource &source,
+                                      const Scene &scene, const RenderOptions &options,
+                                      const GeometricOptions &geometric) {
     constexpr std::uint32_t side = 32, tile = 256, realisations = 2, samples = 128;
     const double scale = std::min(1.0, double{side} / std::min(scene.width, scene.height));
     Scene little = scene;
@@ -86,13 +92,15 @@ double interreflection_share(Context &context, const Brdf &brdf, const ProposalS
     pilot.spp = realisations * samples;
     pilot.errors = false;
     pilot.exr_path.clear();
-    pilot.progress = nullptr;
+    if (options.progress) pilot.progress = [&](double) { return options.progress(0.0); }; // by which it is stopped
     const GeometricOptions of_pilot = {std::min(geometric.tile, tile), realisations, geometric.bounces};
     pilot.effects = geometric_effects;
-    const Image with = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
+    const Rendered with = integrate_geometric(context, brdf, source, little, pilot, of_pilot);
     pilot.effects &= ~static_cast<Effects>(interreflection_effect);
-    const Image without = *integrate_geometric(context, brdf, source, little, pilot, of_pilot).image;
-    return compare(without, with).relrmse;
+    const Rendered without = integrate_geometric(context, brdf, source, little, pilot, of_pilot);
+    Interreflection judged = {compare(*without.image, *with.image).relrmse, with.report};
+    add_times(judged.cost, without.report);
+    return judged;
 }
 
 } // namespace
@@ -102,10 +110,10 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     validate(scene);
     validate(options, asked);
     Effects on = geometric_effects_of(options, asked.bounces);
-    double interreflection = -1.0; // not judged
+    Interreflection interreflection;
     if (options.effects == auto_effects && (on & interreflection_effect)) {
-        interreflection = interreflection_share(context, brdf, source, scene, options, asked);
-        if (interreflection <= options.effect_tolerance) on &= ~static_cast<Effects>(interreflection_effect);
+        interreflection = judge_interreflection(context, brdf, source, scene, options, asked);
+        if (interreflection.share <= options.effect_tolerance) on &= ~static_cast<Effects>(interreflection_effect);
     }
     GeometricOptions geometric = asked;
     if (!(on & interreflection_effect)) geometric.bounces = 0;
@@ -135,7 +143,7 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     RowErrors seen(scene.height);
     Attributes attributes = describe_geometric(brdf, scene, options, geometric);
     attributes["slopemix.effects"] = effects_text(on);
-    if (interreflection >= 0.0) attributes["slopemix.interreflection"] = number_text(interreflection);
+    if (interreflection.share >= 0.0) attributes["slopemix.interreflection"] = number_text(interreflection.share);
     canvas->begin(attributes);
     const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
         const auto integral = std::make_shared<GeometricIntegral>(device, task, most_rows);
@@ -152,7 +160,8 @@ Rendered integrate_geometric(Context &context, const Brdf &brdf, const ProposalS
     RenderReport report = timer.finish(context, seconds, lit * options.spp);
     report.spp = options.spp;
     report.effects = on;
-    report.interreflection = interreflection;
+    report.interreflection = interreflection.share;
+    add_times(report, interreflection.cost);
     report.standard_error = standard_error;
     return {std::move(image), report};
 }

@@ -82,7 +82,7 @@ Attributes describe_reference(const Brdf &brdf, const Scene &scene, const Render
     return attributes;
 }
 
-void add_times(RenderReport &report, const RenderReport &times) {
+void set_call_times(RenderReport &report, const RenderReport &times) {
     report.seconds = times.seconds;
     report.build_seconds = times.build_seconds;
 }
@@ -192,7 +192,7 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     });
     if (report.standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(report.standard_error);
     std::optional<Image> image = canvas->finish(attributes);
-    add_times(report, timer.finish(context, 0.0, 0));
+    set_call_times(report, timer.finish(context, 0.0, 0));
     report.effects = on;
     return {std::move(image), report};
 }
@@ -221,7 +221,7 @@ RenderReport integrate_pairs(Context &context, const Brdf &brdf, const ProposalS
     task.table = &table;
     task.proposal = &proposal;
     RenderReport report = integrate_list(context, options, task, count, wi, wo, fcos, errors);
-    add_times(report, timer.finish(context, 0.0, 0));
+    set_call_times(report, timer.finish(context, 0.0, 0));
     report.effects = on;
     return report;
 }
@@ -243,7 +243,7 @@ RenderReport integrate_pixels(Context &context, const Brdf &brdf, const Proposal
     task.table = &table;
     task.proposal = &proposal;
     RenderReport report = integrate_list(context, options, task, count, wi, wo, fcos, errors);
-    add_times(report, timer.finish(context, 0.0, 0));
+    set_call_times(report, timer.finish(context, 0.0, 0));
     report.effects = on;
     return report;
 }

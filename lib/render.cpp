@@ -9,11 +9,9 @@
 
 namespace smx {
 
-namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-} // namespace
+double now_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::string sampler_name(Sampler sampler) {
     constexpr const char *names[] = {"grid", "sobol", "mis"};
@@ -55,11 +53,17 @@ void report_progress(const RenderOptions &options, double share) {
     if (options.progress && options.progress(share)) fail(Fault::Cancelled, "cancelled by the progress callback");
 }
 
-CallTimer::CallTimer(const Context &context) : start_(now()), build_seconds_(context.build_seconds()) {}
+void add_times(RenderReport &report, const RenderReport &times) {
+    report.seconds += times.seconds;
+    report.kernel_seconds += times.kernel_seconds;
+    report.build_seconds += times.build_seconds;
+}
+
+CallTimer::CallTimer(const Context &context) : start_(now_seconds()), build_seconds_(context.build_seconds()) {}
 
 RenderReport CallTimer::finish(const Context &context, double kernel_seconds, std::uint64_t evaluations) const {
     RenderReport report;
-    report.seconds = now() - start_;
+    report.seconds = now_seconds() - start_;
     report.kernel_seconds = kernel_seconds;
     report.build_seconds = context.build_seconds() - build_seconds_;
     report.evaluations = evaluations;

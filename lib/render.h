@@ -76,6 +76,11 @@ void read_rows(const Context &device, const cl::Buffer &from, std::size_t pixels
 // Tells the caller how far the work is. Throws Cancelled when it is to stop.
 void report_progress(const RenderOptions &options, double share);
 
+// Adds the times of another part of the same call.
+void add_times(RenderReport &report, const RenderReport &times);
+
+double now_seconds(); // of a clock that never goes back
+
 // Measures a whole call: construct at its start, call finish() at its end.
 class CallTimer {
   public:

@@ -172,9 +172,7 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     rendered.report.orders = all_orders;
     rendered.report.effects = simulated.on;
     rendered.report.lobes = simple.material.lobes.size();
-    rendered.report.seconds += choice.seconds;
-    rendered.report.kernel_seconds += choice.kernel_seconds;
-    rendered.report.build_seconds += choice.build_seconds;
+    add_times(rendered.report, choice);
     const std::uint64_t lit = lit_pixels(scene);
     rendered.report.unsettled = lit == 0 ? 0.0 : static_cast<double>(unsettled) / static_cast<double>(lit);
     return rendered;

@@ -84,6 +84,26 @@ static void check_scene_and_choice(void) {
 }
 
 /* A material that was fitted to nothing says nothing of its error; a table does. */
+/* What is the image's alone has no say: where it goes, its errors, its effects. */
+static void check_image_options(void) {
+    const smx_choose_options options = within(0.2);
+    smx_scene scene = SMX_SCENE_INIT;
+    smx_render_options render = SMX_RENDER_OPTIONS_INIT;
+    smx_choice plain = SMX_CHOICE_INIT, choice = SMX_CHOICE_INIT;
+    FILE *file;
+    scene.width = scene.height = 16;
+    scene.displacement.alpha_x = scene.displacement.alpha_y = 0.3;
+    CHECK(smx_choose(context, brdf, &material, 1, &scene, NULL, &options, &plain) == SMX_OK);
+    render.exr_path = "chosen-and-not-rendered.exr";
+    render.errors = 1;
+    render.effects = SMX_EFFECT_FRESNEL;
+    CHECK(smx_choose(context, brdf, &material, 1, &scene, &render, &options, &choice) == SMX_OK);
+    CHECK(choice.picked.error == plain.picked.error);
+    file = fopen(render.exr_path, "rb");
+    CHECK(file == NULL);
+    if (file) fclose(file);
+}
+
 static void check_unknown_fit(void) {
     const smx_choose_options options = within(0.1);
     const smx_scene scene = SMX_SCENE_INIT;
@@ -101,6 +121,7 @@ int main(void) {
     check_pointers();
     check_options();
     check_scene_and_choice();
+    check_image_options();
     check_unknown_fit();
     smx_material_release(material);
     smx_brdf_release(brdf);

@@ -1,6 +1,6 @@
 // The choice by error on scenes that nothing was calibrated on: the image is as accurate as was asked for, and not much
 // dearer than it had to be. A few synthetic materials; with SLOPEMIX_CHOOSE_CASES=all, 120 cases, measured materials
-// too where they are. SLOPEMIX_CHOOSE_ROWS=FILE writes a row for each case (tools/calibrate-choice reads them).
+// too where they are. SLOPEMIX_CHOOSE_ROWS=FILE writes a row for each case.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

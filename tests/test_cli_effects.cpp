@@ -42,7 +42,7 @@ TEST(CliEffects, TableHasAVerdictAReasonAndACost) {
         EXPECT_TRUE(!supported || effect.at("ns_without").get<double>() > 0.0) << effect;
     }
     EXPECT_GT(report.at("ns_all").get<double>(), 0.0);
-    EXPECT_GT(report.at("ns_auto").get<double>(), 0.0);
+    EXPECT_GT(report.at("ns_chosen").get<double>(), 0.0);
     EXPECT_TRUE(report.at("effects")[5].at("on")) << "two alphas";
 
     const test::CliResult text = test::cli(effects);

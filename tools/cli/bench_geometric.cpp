@@ -24,6 +24,7 @@ void bench_geometric(BenchJob &job) {
     const Brdf brdf = acquire<Brdf>(smx_brdf_open, "builtin:two-layer");
     const smx_scene scene = rough_sphere();
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.effects = SMX_EFFECTS_ALL;
     options.spp = samples;
     options.sampler = SMX_SAMPLER_GRID;
     const smx_geometric_options geometric = SMX_GEOMETRIC_OPTIONS_INIT;

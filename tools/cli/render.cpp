@@ -1,5 +1,6 @@
 // slopemix render: one image of the displaced sphere, by the filter or by one of the references.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -38,6 +39,11 @@ void require_way(const CLI::App &command, const RenderJob &job) {
         throw CLI::RequiredError("--integrator (or --max-error, or --max-seconds)");
     if (!job.choose.is_asked_for() && !job.choose.materials.empty())
         throw CLI::ValidationError("--material", "needs --max-error or --max-seconds");
+    const bool names_effects = job.flags.effects != SMX_EFFECTS_AUTO && job.flags.effects != SMX_EFFECTS_ALL;
+    if (job.choose.is_asked_for() && names_effects)
+        throw CLI::ValidationError("--effects",
+                                   "a choice by error or time is among images of all effects; use auto "
+                                   "or all");
     if (job.choose.is_asked_for() && job.errors)
         throw CLI::ValidationError("--errors", "the choice may fall on a filtered image, which has none");
 }
@@ -104,10 +110,12 @@ smx_scene view_of(const RenderJob &job) {
 }
 
 // Chooses, and leaves the choice in the job's flags.
-Chosen choose(RenderJob &job, Source &source) {
+Chosen choose(RenderJob &job, Source &source, Progress &progress) {
     source.context = open_context(job.flags);
     Candidates candidates = open_candidates(job.input, job.choose, job.fit, job.lobes_given);
-    Chosen chosen = choose(source.context, candidates, view_of(job), render_options(job.flags), job.choose);
+    smx_render_options options = render_options(job.flags);
+    progress.attach(options);
+    Chosen chosen = choose(source.context, candidates, view_of(job), options, job.choose);
     const smx_configuration &picked = chosen.choice.picked;
     if (picked.material == SMX_BY_REFERENCE) {
         job.integrator = Integrator::reference;
@@ -117,6 +125,9 @@ Chosen choose(RenderJob &job, Source &source) {
     } else {
         job.integrator = Integrator::filtered;
         job.flags.widening_order = picked.widening_order;
+        // What effects are left out for is no error to speak of beside the one that was asked for.
+        if (job.choose.max_error > 0.0)
+            job.flags.effect_tolerance = std::min(job.flags.effect_tolerance, 0.1 * job.choose.max_error);
         source.material = std::move(candidates.materials[static_cast<std::size_t>(picked.material)]);
     }
     return chosen;
@@ -156,7 +167,7 @@ Rendered render(RenderJob &job, const char *exr_path) {
     Source source;
     std::optional<Chosen> chosen;
     if (job.choose.is_asked_for())
-        chosen = choose(job, source);
+        chosen = choose(job, source, progress);
     else
         source = open_source(job);
 

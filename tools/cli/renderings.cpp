@@ -41,6 +41,24 @@ smx_scene scene(const RenderFlags &flags, const smx_displacement &displacement, 
     return scene;
 }
 
+bool takes_double(const Context &context) {
+    const smx_lobe lobe = {1.0, 0.1};
+    const double fresnel[] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}; // two knots
+    smx_material_desc desc = SMX_MATERIAL_DESC_INIT;
+    desc.lobes = &lobe;
+    desc.lobe_count = 1;
+    desc.knots = 2;
+    desc.fresnel = fresnel;
+    const Material material = acquire<Material>(smx_material_create, &desc);
+    smx_displacement smooth = {0.0, 0.0, 0.0, 0.0, 0.0};
+    smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+    options.grade = SMX_GRADE_DOUBLE;
+    const float up[3] = {0.0f, 0.0f, 1.0f};
+    float fcos[3];
+    return smx_material_eval(context.get(), material.get(), &smooth, SMX_G2_CORRELATED, &options, 1, up, up, fcos) ==
+           SMX_OK;
+}
+
 Rendering render_filtered(const Context &context, const Material &material, const smx_scene &scene,
                           const smx_render_options &options) {
     return rendering(options, smx_render_filtered, context.get(), material.get(), &scene);

@@ -25,4 +25,7 @@ Rendering render_geometry(const Context &context, const smx_scene &scene, const 
 // Without the compilation of kernels, which is paid once; 0 where there was nothing to evaluate.
 double seconds_per_sample(double seconds, double build_seconds, std::uint64_t evaluations);
 
+// Whether the device has the grade double.
+bool takes_double(const Context &context);
+
 } // namespace slopemix::cli

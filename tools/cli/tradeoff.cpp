@@ -10,6 +10,7 @@
 #include "input.h"
 #include "output.h"
 #include "plot.h"
+#include "renderings.h"
 #include "tradeoff_journal.h"
 #include "tradeoff_plot.h"
 
@@ -164,6 +165,7 @@ void add_tradeoff(CLI::App &app) {
     command->callback([job] {
         complete(job->axes, job->quick);
         job->axes.anisotropic = job->alpha.first != job->alpha.second;
+        job->axes.has_double = takes_double(open_context(job->flags));
         run(*job);
     });
 }

@@ -95,10 +95,15 @@ class Sweep {
   private:
     // The smallest standard error that a point will have; 0 where none has an estimate.
     double finest_error() {
+        const auto has_estimate = [](const Configuration &point) {
+            return point.is_as_is() && (point.method == Method::sobol || point.method == Method::mis);
+        };
+        std::uint32_t most = 0;
+        for (const Configuration &point : plan_)
+            if (has_estimate(point)) most = std::max(most, point.samples);
         double finest = 0.0;
         for (const Configuration &point : plan_) {
-            const bool has_estimate = point.method == Method::sobol || point.method == Method::mis;
-            if (!has_estimate || !point.is_as_is() || point.samples != job_.axes.samples) continue;
+            if (!has_estimate(point) || point.samples != most) continue;
             const double error = renderer_.render(point, 0).report.standard_error;
             if (error > 0.0) finest = finest > 0.0 ? std::min(finest, error) : error;
         }

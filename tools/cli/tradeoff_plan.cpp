@@ -13,10 +13,11 @@ constexpr std::uint32_t realisations = GeometricFlags{}.realisations; // the few
 constexpr std::uint32_t geometric_most = 1024; // each costs it a hundred times what a sampler's does
 constexpr std::uint32_t variant_samples = 4096, variant_lobes = 8;
 
-bool any(Method, bool) { return true; }
-bool filters(Method method, bool) { return is_filtered(method); }
-bool own_curves(Method method, bool) { return method == Method::per_lobe; }
-bool anisotropic_surfaces(Method, bool anisotropic) { return anisotropic; }
+bool any(Method, const SweepAxes &) { return true; }
+bool filters(Method method, const SweepAxes &) { return is_filtered(method); }
+bool own_curves(Method method, const SweepAxes &) { return method == Method::per_lobe; }
+bool anisotropic_surfaces(Method, const SweepAxes &axes) { return axes.anisotropic; }
+bool devices_with_double(Method, const SweepAxes &axes) { return axes.has_double; }
 
 template <smx_effect effect>
 void without(Method method, smx_scene &, smx_render_options &options) {
@@ -31,7 +32,8 @@ void without(Method method, smx_scene &, smx_render_options &options) {
 constexpr Variant all_variants[] = {
     {"", any, [](Method, smx_scene &, smx_render_options &) {}},
     {"fast", any, [](Method, smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_FAST; }},
-    {"double", any, [](Method, smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_DOUBLE; }},
+    {"double", devices_with_double,
+     [](Method, smx_scene &, smx_render_options &options) { options.grade = SMX_GRADE_DOUBLE; }},
     {"separable", any, [](Method, smx_scene &scene, smx_render_options &) { scene.masking = SMX_G2_SEPARABLE; }},
     {"no-masking", any, without<SMX_EFFECT_MASKING>},
     {"no-shadowing", any, without<SMX_EFFECT_SHADOWING>},
@@ -103,7 +105,7 @@ std::vector<Configuration> plan_of(const SweepAxes &axes) {
     }
     for (const std::optional<Configuration> &base : {chosen_reference(points), chosen_filter(points)})
         for (std::size_t variant = 1; base && variant < variants().size(); ++variant) {
-            if (!variants()[variant].is_of(base->method, axes.anisotropic)) continue;
+            if (!variants()[variant].is_of(base->method, axes)) continue;
             points.push_back(*base);
             points.back().variant = variant;
         }

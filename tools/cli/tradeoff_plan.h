@@ -22,10 +22,12 @@ inline bool is_filtered(Method method) { return method == Method::shared || meth
 inline bool is_sampler(Method method) { return !is_filtered(method) && method != Method::geometric; }
 inline smx_model model_of(Method method) { return method == Method::shared ? SMX_MODEL_SHARED : SMX_MODEL_PER_LOBE; }
 
+struct SweepAxes;
+
 // A departure from the defaults, measured beside them.
 struct Variant {
     const char *word;
-    bool (*is_of)(Method method, bool anisotropic); // whether it departs at all
+    bool (*is_of)(Method method, const SweepAxes &axes); // whether it departs at all
     void (*apply)(Method method, smx_scene &scene, smx_render_options &options);
 };
 
@@ -52,6 +54,7 @@ struct SweepAxes {
     std::vector<std::uint32_t> lobes;
     std::vector<std::int32_t> orders;
     bool anisotropic = false; // the surface
+    bool has_double = true;   // the device
 };
 
 // The filter and the reference that variants are of: per-lobe before shared and mis before the other samplers, with the
