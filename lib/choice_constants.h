@@ -26,7 +26,4 @@ constexpr std::array<double, 3> facet_ns = {40.0, 60.0, 550.0};
 constexpr std::array<double, 3> fall = {0.5, 0.6, 0.7};
 constexpr double steepest = 1.25, steepest_on_a_line = 2.0;
 
-// Of what the pilot's pixels show, so that the image's error is no more than 1.25 times the predicted one in 95 of 100.
-constexpr double margin = 1.0;
-
 } // namespace smx::choice

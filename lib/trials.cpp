@@ -66,8 +66,8 @@ void Trials::try_reference(Sampler sampler, std::uint32_t spp) {
     const double off = pilot_.error(values, truth_);
     // The difference has the truth's error in it. Where that is most of it, it is a bound and no more.
     tried.is_finest = off < 1.2 * truth_error_;
-    const double bound = tried.spp == 0 ? off : std::min(off, extrapolated(sampler, spp) / choice::margin);
-    tried.error = choice::margin * (tried.is_finest ? bound : std::sqrt(off * off - truth_error_ * truth_error_));
+    const double bound = tried.spp == 0 ? off : std::min(off, extrapolated(sampler, spp));
+    tried.error = tried.is_finest ? bound : std::sqrt(off * off - truth_error_ * truth_error_);
     tried.spp = spp;
 }
 
@@ -97,7 +97,7 @@ double Trials::filtered_error(const Configuration &c) {
     const double off = pilot_.error(values, truth_);
     // An error below half the truth's own is not known to be less than that.
     const double noise2 = truth_error_ * truth_error_;
-    return choice::margin * std::sqrt(std::max(off * off - noise2, 0.25 * noise2));
+    return std::sqrt(std::max(off * off - noise2, 0.25 * noise2));
 }
 
 } // namespace smx
