@@ -2,6 +2,7 @@
 #include "journal.h"
 
 #include <fstream>
+#include <iostream>
 #include <utility>
 
 #include "digest.h"
@@ -23,11 +24,24 @@ std::string text_of(const Journal::Json &document) {
 
 } // namespace
 
+void note(const std::string &sentence) { std::cerr << "slopemix: " << sentence << '\n'; }
+
 Journal::Journal(fs::path file, Json settings) : file_(std::move(file)), settings_(std::move(settings)) {}
 
 bool Journal::exists() const {
     std::error_code ignored;
     return fs::exists(file_, ignored);
+}
+
+Journal::Start Journal::start(bool resume, const fs::path &finished, const std::string &work) const {
+    std::error_code ignored;
+    if (resume && exists()) return Start::resumed;
+    if (resume && fs::exists(finished, ignored)) return Start::complete;
+    if (resume)
+        note("nothing to resume in " + finished.parent_path().string() + ": beginning anew");
+    else if (exists())
+        note(file_.string() + " is of an interrupted " + work + ": beginning anew, without --resume");
+    return Start::anew;
 }
 
 void Journal::refuse(const fs::path &file, const std::string &reason) {

@@ -1,7 +1,6 @@
 // What a long command has finished, on disk while it works, for a later run with --resume: its settings, an item per
-// finished file with the file's SHA-256, and totals. `sheet` keeps one. A command to come with many files, such as
-// `tradeoff`, takes this class and FolderLock as they are and adds only the form of its items (sheet_journal.cpp is the
-// example); `fit` needs none, because its table of fits tells what is up to date.
+// finished part, and totals. `sheet` and `tradeoff` keep one each, and add the form of their items; `fit` needs none,
+// because its table of fits tells what is up to date.
 #pragma once
 
 #include <filesystem>
@@ -23,6 +22,11 @@ class Journal {
 
     bool exists() const;
 
+    // How a run begins, by what stands beside `finished`, the file that ends one. Says so where there is nothing to
+    // resume, or a run of this `work` that was interrupted and is not resumed.
+    enum class Start { anew, resumed, complete };
+    Start start(bool resume, const std::filesystem::path &finished, const std::string &work) const;
+
     // Throws CommandError where the file is damaged, or of other settings, and then names the first that differs.
     Content read() const;
 
@@ -41,5 +45,8 @@ class Journal {
     std::filesystem::path file_;
     Json settings_;
 };
+
+// A sentence for the person at the terminal.
+void note(const std::string &sentence);
 
 } // namespace slopemix::cli

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char *probe_name = "probe"; // of a file that tells whether a folder takes one
+
 [[noreturn]] void refuse(const fs::path &file, const std::string &reason) {
     throw CommandError("cannot write " + file.string() + ": " + reason);
 }
@@ -52,7 +54,7 @@ void require_writable(const fs::path &file) {
     const fs::path folder = nearest_existing(folder_of(file));
     if (!fs::is_directory(folder, ignored)) refuse(file, folder.string() + " is not a folder");
 
-    const fs::path probe = temporary_name(folder / "probe");
+    const fs::path probe = temporary_name(folder / probe_name);
     const int descriptor = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
     if (descriptor < 0) refuse(file, std::strerror(errno));
     close(descriptor);
@@ -94,7 +96,7 @@ void StagedFiles::commit() {
 }
 
 void remove_leftovers(const std::vector<fs::path> &files) {
-    std::set<std::string> names;
+    std::set<std::string> names = {probe_name};
     for (const fs::path &file : files) names.insert(file.filename().string());
     const std::regex temporary(R"(\.(.+)\.\d+\.tmp(\..*)?)"); // the library's own temporary files end in more
     std::error_code ignored;

@@ -1,6 +1,5 @@
 #include "sheet_journal.h"
 
-#include <iostream>
 #include <map>
 
 #include "digest.h"
@@ -13,8 +12,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = Journal::Json;
-
-void note(const std::string &sentence) { std::cerr << "slopemix: " << sentence << '\n'; }
 
 Json totals_json(const SheetResult &result) {
     return {{"total_seconds", result.total_seconds},
@@ -44,15 +41,14 @@ void SheetJournal::open(SheetResult &result) {
     remove_leftovers(files_of(job_, plan_));
     const Json settings = sheet_settings(job_, result);
     journal_.emplace(job_.journal_file(), settings);
-    std::error_code ignored;
-    if (job_.resume && journal_->exists())
-        take_over(result);
-    else if (job_.resume && fs::exists(job_.file("sheet.json"), ignored))
-        require_complete(settings);
-    else if (job_.resume)
-        note("nothing to resume in " + job_.out + ": beginning anew");
-    else if (journal_->exists())
-        note(job_.journal_file().string() + " is of an interrupted sheet: beginning anew, without --resume");
+    switch (journal_->start(job_.resume, job_.file("sheet.json"), "sheet")) {
+        case Journal::Start::resumed:
+            return take_over(result);
+        case Journal::Start::complete:
+            return require_complete(settings);
+        case Journal::Start::anew:
+            return;
+    }
 }
 
 void SheetJournal::take_over(SheetResult &result) {

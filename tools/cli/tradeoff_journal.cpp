@@ -1,7 +1,5 @@
 #include "tradeoff_journal.h"
 
-#include <iostream>
-
 #include "digest.h"
 #include "output.h"
 #include "tradeoff_entry.h"
@@ -13,8 +11,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = Journal::Json;
-
-void note(const std::string &sentence) { std::cerr << "slopemix: " << sentence << '\n'; }
 
 Json fits_json(const TradeoffResult &result) {
     Json fits = Json::array();
@@ -30,15 +26,14 @@ void TradeoffJournal::open(const std::vector<Configuration> &plan, TradeoffResul
                       job_.file("tradeoff.svg")});
     const Json settings = tradeoff_settings(job_, result);
     journal_.emplace(job_.journal_file(), settings);
-    std::error_code ignored;
-    if (job_.resume && journal_->exists())
-        take_over(plan, result);
-    else if (job_.resume && fs::exists(job_.file("tradeoff.json"), ignored))
-        require_complete(settings);
-    else if (job_.resume)
-        note("nothing to resume in " + job_.out + ": beginning anew");
-    else if (journal_->exists())
-        note(job_.journal_file().string() + " is of an interrupted sweep: beginning anew, without --resume");
+    switch (journal_->start(job_.resume, job_.file("tradeoff.json"), "sweep")) {
+        case Journal::Start::resumed:
+            return take_over(plan, result);
+        case Journal::Start::complete:
+            return require_complete(settings);
+        case Journal::Start::anew:
+            return;
+    }
 }
 
 void TradeoffJournal::take_over(const std::vector<Configuration> &plan, TradeoffResult &result) {
