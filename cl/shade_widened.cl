@@ -79,18 +79,14 @@ __kernel void shade_widened_pairs(__global float *fcos_x, __global float *fcos_y
     Curves curves = packed_curves(packed);
     KnotPosition knot = knot_of(&curves, wi, wo);
 
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
+    LaneColours sum = black_lanes();
 #if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(&curves, k, &knot);
-        sum = add_coloured(sum, f.r, f.g, f.b, widened_lobe(lobes, count, k, &e, &q));
-    }
+    for (int k = 0; k < count; ++k) add_coloured_by(&sum, &curves, k, &knot, widened_lobe(lobes, count, k, &e, &q));
 #else
-    RgbW f = fresnel_of(&curves, 0, &knot);
-    sum = add_coloured(sum, f.r, f.g, f.b, widened_mixture(lobes, count, &e, &q));
+    add_coloured_by(&sum, &curves, 0, &knot, widened_mixture(lobes, count, &e, &q));
 #endif
-    sum = scaled(sum, visible_quarter(&e));
-    VectorW out = {sum.r, sum.g, sum.b};
+    RgbW fcos = scaled(rgb_of(&sum), visible_quarter(&e));
+    VectorW out = {fcos.r, fcos.g, fcos.b};
     store_vectors(out, fcos_x, fcos_y, fcos_z, fcos_at, at, pairs);
 }
 

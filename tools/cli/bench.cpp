@@ -46,7 +46,7 @@ void print_text(const std::vector<BenchRow> &rows, const std::string &device) {
 }
 
 void run(const BenchFlags &flags) {
-    Progress progress(shading_jobs + widening_jobs + effects_jobs + reference_jobs + geometric_jobs);
+    Progress progress(shading_jobs + widening_jobs + effects_jobs + evaluator_jobs + reference_jobs + geometric_jobs);
     BenchJob job{open_context(flags.render), flags.quick ? 1 : 7, progress, {}};
     const smx_device_info device = info_of(job.context);
     if (device.devices > 1)
@@ -54,6 +54,7 @@ void run(const BenchFlags &flags) {
     bench_shading(job);
     bench_widening(job);
     bench_effects(job);
+    bench_evaluator(job);
     bench_reference(job);
     bench_geometric(job);
     progress.clear();
