@@ -25,16 +25,22 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 
-set(what_it_does "slopemix turns a measured BRDF into a mixture of Beckmann slope lobes, widens every lobe by the
-roughness of a displaced surface, and shades with one evaluation per pixel.")
+# Under one synopsis; lines of at most 80 characters.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "measured materials on surfaces that are rough below the pixel")
+set(what_it_does "slopemix turns a measured BRDF into a mixture of Beckmann slope lobes, widens
+every lobe by the roughness of a displaced surface, and shades with one
+evaluation per pixel.
+.
+")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${debian_library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
-set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "measured materials on rough surfaces (library)
-${what_it_does}
-This package holds the shared library; it needs an OpenCL device, such as PoCL's, for all but fitting.")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "${what_it_does}This package holds the shared library. It needs an OpenCL device, such as
+PoCL's, for all but fitting.")
+# dpkg runs ldconfig by this; the scripts that cpack adds run it too.
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/triggers)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libslopemix-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -44,9 +50,8 @@ if(SLOPEMIX_STATIC)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", ocl-icd-opencl-dev, libopenexr-dev, libpng-dev, "
          "libssl-dev, libkissfft-dev, libceres-dev")
 endif()
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "measured materials on rough surfaces (development files)
-${what_it_does}
-This package holds the C headers, the headers for kernels in OpenCL C, and what CMake and pkg-config need.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${what_it_does}This package holds the C headers, the headers for kernels in OpenCL C, and
+what CMake and pkg-config need.")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME slopemix)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
@@ -54,9 +59,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${debian_library} (>= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS gnuplot-nox)
-set(CPACK_DEBIAN_TOOLS_DESCRIPTION "measured materials on rough surfaces (command line)
-${what_it_does}
-This package holds the command that fits, renders and measures.")
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "${what_it_does}This package holds the command that fits, renders and measures.")
 
 # Changelog and compression, as Debian's policy wants them.
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_BINARY_DIR}/debian_documents.cmake)
