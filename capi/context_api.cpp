@@ -21,14 +21,23 @@ void fill(smx_device_info &out, const DeviceInfo &in) {
     out.devices = in.devices;
 }
 
-std::shared_ptr<Context> make_context(const smx_context_options &o) {
-    require(!o.cl_context == !o.cl_queue, "cl_context and cl_queue must both be given or both be null");
-    if (!o.cl_context) return std::make_shared<Context>(o.device ? o.device : "", o.vector_width, o.sub_devices);
+std::shared_ptr<Context> context_of_device(const smx_context_options &o) {
+    return std::make_shared<Context>(o.device ? o.device : "", o.vector_width, o.sub_devices);
+}
+
+std::shared_ptr<Context> context_of_queue(const smx_context_options &o) {
     require(!o.device, "device must be null when cl_context is given: the queue has its device");
     require(o.sub_devices <= 1, "sub_devices is ", o.sub_devices, "; it must be 0 or 1 when cl_context is given");
     const cl::Context context(static_cast<cl_context>(o.cl_context), true);
     const cl::CommandQueue queue(static_cast<cl_command_queue>(o.cl_queue), true);
     return std::make_shared<Context>(context, queue, o.vector_width);
+}
+
+std::shared_ptr<Context> make_context(const smx_context_options &o) {
+    require(!o.cl_context == !o.cl_queue, "cl_context and cl_queue must both be given or both be null");
+    std::shared_ptr<Context> context = o.cl_context ? context_of_queue(o) : context_of_device(o);
+    if (o.copy_arrays) context->copy_arrays();
+    return context;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "fit_material.h"
 #include "handles.h"
 #include "material_file.h"
+#include "packed_material.h"
 
 using namespace smx;
 
@@ -186,5 +187,29 @@ smx_status smx_material_save(smx_material material, const char *path) {
         require_pointer(path, "path");
         save_material(*material->object, path);
     });
+}
+
+smx_status smx_material_pack(smx_material material, float *words, size_t *count) {
+    return guarded([&] {
+        require_pointer(material, "material");
+        require_pointer(count, "count");
+        const std::size_t size = packed_size(*material->object);
+        if (words) {
+            require(*count == size, "*count is ", *count, "; the packed material has ", size, " floats");
+            const std::vector<float> packed_words = packed(*material->object);
+            std::copy(packed_words.begin(), packed_words.end(), words);
+        }
+        *count = size;
+    });
+}
+
+const char *smx_device_header(void) {
+    try {
+        static const std::string header = kernel_source("slopemix.clh");
+        return header.c_str();
+    } catch (...) {
+        translate_exception();
+        return nullptr;
+    }
 }
 }

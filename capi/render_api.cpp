@@ -1,6 +1,7 @@
 // smx_render_*, smx_material_eval, smx_brdf_eval, smx_brdf_integrate
 #include "draw_geometry.h"
 #include "eval_table.h"
+#include "evaluator.h"
 #include "integrate_geometric.h"
 #include "render_arguments.h"
 #include "shade_filtered.h"
@@ -159,8 +160,11 @@ smx_status smx_material_eval(smx_context context, smx_material material, const s
         require_pointer(wi, "wi");
         require_pointer(wo, "wo");
         require_pointer(fcos, "fcos");
-        shade_filtered_pairs(*context->object, *material->object, to_cpp(*displacement), static_cast<Masking>(masking),
-                             to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options")), count, wi, wo, fcos);
+        Evaluator evaluator(*context->object, *material->object, to_cpp(*displacement), static_cast<Masking>(masking),
+                            to_cpp(checked(options, SMX_RENDER_OPTIONS_INIT, "options")));
+        evaluator.evaluate(Quantity::Fcos, count,
+                           {written_vectors(fcos, fcos + 1, fcos + 2, 3), read_vectors(wi, wi + 1, wi + 2, 3),
+                            read_vectors(wo, wo + 1, wo + 2, 3)});
     });
 }
 

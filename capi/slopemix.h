@@ -36,6 +36,7 @@
 #include "slopemix/density.h"
 #include "slopemix/effects.h"
 #include "slopemix/eval.h"
+#include "slopemix/evaluator.h"
 #include "slopemix/geometric.h"
 #include "slopemix/image.h"
 #include "slopemix/material.h"

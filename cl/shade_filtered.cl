@@ -5,11 +5,11 @@
 //   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
 //   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
 //   and what is simulated (effects.clh)
-#include "fresnel.clh"
-#include "mixture.clh"
-#include "pairs.clh"
+#include "fcos.clh"
+#include "packed.clh"
 #include "rgb.clh"
 #include "sphere.clh"
+#include "strided.clh"
 
 // f cos_i where F is one number per curve and channel.
 inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constant const real4 *fresnel,
@@ -17,8 +17,8 @@ inline RgbW fcos_at_one_angle(__constant const Lobe *lobes, int count, __constan
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
     for (int k = 0; k < count; ++k)
-        sum =
-            add_coloured(sum, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z, lobe_value(lobes + k, e));
+        sum = add_coloured(sum, (realW)fresnel[k].x, (realW)fresnel[k].y, (realW)fresnel[k].z,
+                           lobe_value(lobe_at(lobes, k), e));
 #else
     sum =
         add_coloured(sum, (realW)fresnel[0].x, (realW)fresnel[0].y, (realW)fresnel[0].z, shared_value(lobes, count, e));
@@ -46,35 +46,21 @@ __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int 
     store_rgba(rgba + band_row * view.width + first_column, fcos, inside, view.width - first_column);
 }
 
-// f cos_i of pairs by their Fresnel curves: one set, or one per lobe (fresnel.clh).
-inline RgbW fcos_of_pair(__constant const Lobe *lobes, int count, __global const float *curves, int knots,
-                         const KnotPosition *knot, const Evaluation *e) {
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-#if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(curves + 3 * k * knots, knots, knot);
-        sum = add_coloured(sum, f.r, f.g, f.b, lobe_value(lobes + k, e));
-    }
-#else
-    RgbW f = fresnel_of(curves, knots, knot);
-    sum = add_coloured(sum, f.r, f.g, f.b, shared_value(lobes, count, e));
-#endif
-    return scaled(sum, common_factor(e));
-}
-
-// Pairs of directions as structure of arrays: wi, wo and fcos each [3][stride], stride a multiple of W. `curves` holds
-// one set of Fresnel curves or one per lobe (fresnel.clh), over the knots `theta_d`.
-__kernel void shade_filtered_pairs(__global float *fcos, int stride, __global const float *wi, __global const float *wo,
-                                   Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
-                                   __constant float *theta_d, int knots) {
+// Pairs of directions: fcos, wi and wo as strided arrays (strided.clh), `packed` the material (packed.clh).
+__kernel void shade_filtered_pairs(__global float *fcos_x, __global float *fcos_y, __global float *fcos_z,
+                                   Places fcos_at, __global const float *wi_x, __global const float *wi_y,
+                                   __global const float *wi_z, Places wi_at, __global const float *wo_x,
+                                   __global const float *wo_y, __global const float *wo_z, Places wo_at, int pairs,
+                                   Displacement x, __constant Lobe *lobes, int count, __global const float *packed) {
     int at = W * (int)get_global_id(0);
-    if (at >= stride) return;
-    PairsOfDirections d = load_pairs(wi, wo, stride, at);
-    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
-    KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
+    if (at >= pairs) return;
+    VectorW wi = load_vectors(wi_x, wi_y, wi_z, wi_at, at, pairs),
+            wo = load_vectors(wo_x, wo_y, wo_z, wo_at, at, pairs);
+    Evaluation e = evaluation_of(&x, wi, wo);
+    Curves curves = packed_curves(packed);
+    KnotPosition knot = knot_of(&curves, wi, wo);
 
-    RgbW sum = fcos_of_pair(lobes, count, curves, knots, &knot, &e);
-    store_floatsW(sum.r, 0, fcos + at);
-    store_floatsW(sum.g, 0, fcos + stride + at);
-    store_floatsW(sum.b, 0, fcos + 2 * stride + at);
+    RgbW fcos = fcos_of_pair(lobes, count, PER_LOBE, &curves, &knot, &e);
+    VectorW out = {fcos.r, fcos.g, fcos.b};
+    store_vectors(out, fcos_x, fcos_y, fcos_z, fcos_at, at, pairs);
 }

@@ -10,10 +10,12 @@
 #define WIDENING 2
 #endif
 
-#include "fresnel.clh"
+#include "fcos.clh"
+#include "packed.clh"
 #include "pairs.clh"
 #include "rgb.clh"
 #include "sphere.clh"
+#include "strided.clh"
 #include "widen.clh"
 
 inline int lanes_of(intW mask) {
@@ -61,31 +63,35 @@ __kernel void shade_widened_sphere(__global float4 *rgba, SphereView view, int f
 }
 
 // Pairs of directions, as in shade_filtered.cl.
-__kernel void shade_widened_pairs(__global float *fcos, int stride, __global const float *wi, __global const float *wo,
-                                  Displacement x, __constant Lobe *lobes, int count, __global const float *curves,
-                                  __constant float *theta_d, int knots, FacetDensity facets,
-                                  __constant QuadratureLobe *orders, __constant HermiteNode *nodes) {
+__kernel void shade_widened_pairs(__global float *fcos_x, __global float *fcos_y, __global float *fcos_z,
+                                  Places fcos_at, __global const float *wi_x, __global const float *wi_y,
+                                  __global const float *wi_z, Places wi_at, __global const float *wo_x,
+                                  __global const float *wo_y, __global const float *wo_z, Places wo_at, int pairs,
+                                  Displacement x, __constant Lobe *lobes, int count, __global const float *packed,
+                                  FacetDensity facets, __constant QuadratureLobe *orders,
+                                  __constant HermiteNode *nodes) {
     int at = W * (int)get_global_id(0);
-    if (at >= stride) return;
-    PairsOfDirections d = load_pairs(wi, wo, stride, at);
-    Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, d.ix + d.ox, d.iy + d.oy, d.iz + d.oz);
-    Quadrature q = quadrature(&facets, orders, nodes, &e, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
-    KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
+    if (at >= pairs) return;
+    VectorW wi = load_vectors(wi_x, wi_y, wi_z, wi_at, at, pairs),
+            wo = load_vectors(wo_x, wo_y, wo_z, wo_at, at, pairs);
+    Evaluation e = evaluation_of(&x, wi, wo);
+    Quadrature q = quadrature(&facets, orders, nodes, &e, wi.x, wi.y, wi.z, wo.x, wo.y, wo.z);
+    Curves curves = packed_curves(packed);
+    KnotPosition knot = knot_of(&curves, wi, wo);
 
     RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
 #if PER_LOBE
     for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(curves + 3 * k * knots, knots, &knot);
+        RgbW f = fresnel_of(&curves, k, &knot);
         sum = add_coloured(sum, f.r, f.g, f.b, widened_lobe(lobes, count, k, &e, &q));
     }
 #else
-    RgbW f = fresnel_of(curves, knots, &knot);
+    RgbW f = fresnel_of(&curves, 0, &knot);
     sum = add_coloured(sum, f.r, f.g, f.b, widened_mixture(lobes, count, &e, &q));
 #endif
     sum = scaled(sum, visible_quarter(&e));
-    store_floatsW(sum.r, 0, fcos + at);
-    store_floatsW(sum.g, 0, fcos + stride + at);
-    store_floatsW(sum.b, 0, fcos + 2 * stride + at);
+    VectorW out = {sum.r, sum.g, sum.b};
+    store_vectors(out, fcos_x, fcos_y, fcos_z, fcos_at, at, pairs);
 }
 
 // What lobe k of `count` is by its j-th order, orders[j count + k], at W pairs of directions: work-item (c, j count +
@@ -104,7 +110,7 @@ __kernel void probe_widening(__global float *values, int stride, __global const 
 #else
     realW value;
     if (q.lobes[k].order == 0)
-        value = ndf_of(add_p22((realW)0.0f, lobes + k, &e.h), &e.h) * mixture_g2(lobes, count, &e);
+        value = ndf_of(add_p22((realW)0.0f, lobe_at(lobes, k), &e.h), &e.h) * mixture_g2(lobes, count, &e);
     else
         value = q.g2 * lobe_integral(&facets, &q.at, q.lobes + k, lobes, count, nodes, &q.unsettled);
 #endif

@@ -34,6 +34,10 @@ class Context {
 
     const DeviceInfo &info() const { return info_; }
     std::uint32_t width() const { return info_.vector_width; }
+
+    // Whether kernels work on the host's arrays in place.
+    bool shares_memory() const { return info_.shares_memory; }
+    void copy_arrays() { info_.shares_memory = false; }
     const cl::Context &cl() const { return context_; }
     const cl::CommandQueue &queue() const { return queue_; }
     double build_seconds() const; // of all builds so far, on the device that built longest

@@ -16,6 +16,7 @@ struct DeviceInfo {
     std::uint64_t global_memory = 0;
     std::uint32_t vector_width = 1; // evaluations per work-item
     bool has_double = false;        // cl_khr_fp64
+    bool shares_memory = false;     // with the host
     std::uint32_t devices = 1;      // that work together in a context
 };
 

@@ -11,6 +11,10 @@ namespace smx {
 // the device refuses it.
 cl::Buffer make_buffer(const Context &context, std::size_t bytes, const void *from = nullptr);
 
+// The caller's own memory as a buffer, without a copy where the device has the host's memory. It must outlive the
+// buffer.
+cl::Buffer shared_buffer(const Context &context, std::size_t bytes, void *memory, bool is_written);
+
 template <typename T>
 cl::Buffer buffer_from(const Context &context, const std::vector<T> &values) {
     return make_buffer(context, values.size() * sizeof(T), values.data());
@@ -35,8 +39,12 @@ class KernelTime {
     double seconds_ = 0.0;
 };
 
-// Launches a kernel on at least columns x rows work-items, in work-groups of work_group x 1, and waits for it;
-// work-items past the last column must do nothing. Returns the seconds that it took.
+// Enqueues a kernel on at least columns x rows work-items, in work-groups of work_group x 1 (0: of a size of ours),
+// after the events of `wait`, where there are any; work-items past the last column must do nothing.
+cl::Event enqueue(const Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
+                  std::uint32_t work_group, const std::vector<cl::Event> *wait = nullptr);
+
+// The same, and waits for it. Returns the seconds that it took.
 double launch(Context &device, const cl::Kernel &kernel, std::size_t columns, std::size_t rows,
               std::uint32_t work_group);
 

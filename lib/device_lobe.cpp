@@ -22,15 +22,16 @@ DeviceLobe<Real> widened_lobe(double weight, double alpha, const PrincipalAxes &
 } // namespace
 
 template <typename Real>
-std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x) {
+std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x, LobeWeight which) {
     const PrincipalAxes axes = principal_axes(x);
+    const std::vector<double> weights = lobe_weights(material, which);
     std::vector<DeviceLobe<Real>> lobes;
-    for (const auto &[share, alpha] : material.lobes)
-        lobes.push_back(widened_lobe<Real>(material.model == Model::Shared ? share : 1.0, alpha, axes));
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        lobes.push_back(widened_lobe<Real>(weights[k], material.lobes[k].alpha, axes));
     return lobes;
 }
 
-template std::vector<DeviceLobe<float>> widened_lobes(const Material &, const Displacement &);
-template std::vector<DeviceLobe<double>> widened_lobes(const Material &, const Displacement &);
+template std::vector<DeviceLobe<float>> widened_lobes(const Material &, const Displacement &, LobeWeight);
+template std::vector<DeviceLobe<double>> widened_lobes(const Material &, const Displacement &, LobeWeight);
 
 } // namespace smx

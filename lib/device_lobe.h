@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lobe_weights.h"
 #include "material.h"
 #include "scene.h"
 
@@ -17,6 +18,7 @@ struct DeviceLobe {
 // Each lobe's variances plus X's, along X's principal axes, made in double. A lobe that has no width along an axis even
 // so, a mirror's, gets a peak of 0: it masks, and has no density.
 template <typename Real>
-std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x);
+std::vector<DeviceLobe<Real>> widened_lobes(const Material &material, const Displacement &x,
+                                            LobeWeight which = LobeWeight::Model);
 
 } // namespace smx

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "direction_pairs.h"
-#include "shade_filtered.h"
+#include "evaluator.h"
 
 namespace smx {
 
@@ -53,12 +53,16 @@ PilotValues Pilot::filtered(const Material &material, int widening_order) const 
     RenderOptions options = options_;
     options.widening_order = widening_order;
     const double built = context_.build_seconds();
-    std::vector<float> packed(3 * count());
     PilotValues values;
-    values.kernel_seconds = shade_filtered_pairs(context_, material, scene_.displacement, scene_.masking, options,
-                                                 count(), pixels_.wi.data(), pixels_.wo.data(), packed.data());
+    values.rgb.resize(3 * count());
+    float *rgb = values.rgb.data();
+    const float *wi = pixels_.wi.data(), *wo = pixels_.wo.data();
+    Evaluator evaluator(context_, material, scene_.displacement, scene_.masking, options);
+    values.kernel_seconds =
+        evaluator.evaluate(Quantity::Fcos, count(),
+                           {written_vectors(rgb, rgb + count(), rgb + 2 * count(), 1),
+                            read_vectors(wi, wi + 1, wi + 2, 3), read_vectors(wo, wo + 1, wo + 2, 3)});
     values.build_seconds = context_.build_seconds() - built;
-    values.rgb = to_planes(packed.data(), count(), count());
     values.modelled_seconds = filtered_pairs_seconds(material, scene_.displacement, widening_order, count());
     return values;
 }

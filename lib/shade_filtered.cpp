@@ -1,44 +1,16 @@
 #include "shade_filtered.h"
 
-#include <algorithm>
 #include <atomic>
-#include <numbers>
 
 #include "choose_orders.h"
 #include "device_buffer.h"
-#include "device_lobe.h"
 #include "direction_pairs.h"
-#include "error.h"
+#include "filtered_kernels.h"
 #include "widening.h"
 
 namespace smx {
 
 namespace {
-
-cl::Buffer lobe_buffer(const Context &context, const Material &material, const Displacement &x, Grade grade) {
-    return with_real(grade,
-                     [&](auto real) { return buffer_from(context, widened_lobes<decltype(real)>(material, x)); });
-}
-
-// The kernels of filtered shading: all lobes in closed form, or each by its order.
-struct Program {
-    bool widened;
-    Defines defines;
-
-    Program(const Material &material, const Displacement &x, Effects on, const std::vector<int> &orders, Grade grade)
-        : widened(std::any_of(orders.begin(), orders.end(), [](int order) { return order > 0; })),
-          defines(effect_defines(on)) {
-        defines["PER_LOBE"] = material.model == Model::PerLobe;
-        defines["GRADE"] = static_cast<int>(grade);
-        if (widened) defines["WIDENING"] = rough_axes(x);
-    }
-
-    // `what` is sphere or pairs.
-    cl::Kernel kernel(Context &device, const std::string &what) const {
-        const std::string name = widened ? "shade_widened" : "shade_filtered";
-        return device.kernel(name + ".cl", name + '_' + what, defines);
-    }
-};
 
 // F at one angle, one entry (r, g, b, 0) per set of curves.
 cl::Buffer fresnel_at_angle(const Context &context, const Material &material, double theta_d, Grade grade) {
@@ -51,22 +23,6 @@ cl::Buffer fresnel_at_angle(const Context &context, const Material &material, do
         }
         return buffer_from(context, values);
     });
-}
-
-// All curves, as cl/fresnel.clh reads them.
-std::vector<float> packed_curves(const Material &material) {
-    std::vector<float> packed;
-    for (const FresnelCurves &curves : material.fresnel)
-        for (const std::vector<double> &curve : curves)
-            for (double f : curve) packed.push_back(static_cast<float>(f));
-    return packed;
-}
-
-// The knots over pi/2.
-std::vector<float> packed_knots(const Material &material) {
-    std::vector<float> knots;
-    for (double angle : material.theta_d) knots.push_back(static_cast<float>(angle / (std::numbers::pi / 2)));
-    return knots;
 }
 
 // A material and a scene without what is not simulated.
@@ -89,12 +45,12 @@ RenderRows start_sphere(Context &device, const Simplified &simple, const RenderO
                         std::atomic<std::uint64_t> &unsettled) {
     const auto &[material, scene, on] = simple;
     const Grade grade = options.grade;
-    Program program(material, scene.displacement, on, orders, grade);
-    program.defines.erase("FRESNEL"); // of one theta_d: in the data alone
+    FilteredKernels kernels(material, scene.displacement, on, orders, grade);
+    kernels.defines.erase("FRESNEL"); // of one theta_d: in the data alone
     const cl::Buffer fresnel = fresnel_at_angle(device, material, theta_d(scene), grade);
     const cl::Buffer rgba = empty_buffer<cl_float4>(device, std::size_t{most_rows} * scene.width);
     const cl::Buffer lobes = lobe_buffer(device, material, scene.displacement, grade);
-    cl::Kernel kernel = program.kernel(device, "sphere");
+    cl::Kernel kernel = kernels.kernel(device, "sphere");
     kernel.setArg(0, rgba);
     set_arg(kernel, 1, scene, grade);
     set_arg(kernel, 3, scene.displacement, grade);
@@ -104,7 +60,7 @@ RenderRows start_sphere(Context &device, const Simplified &simple, const RenderO
     // A kernel does not keep its buffers alive.
     std::vector<cl::Buffer> kept = {fresnel, lobes};
     cl::Buffer count;
-    if (program.widened) {
+    if (kernels.widened) {
         for (const cl::Buffer &buffer : set_widening(device, kernel, 7, material, scene.displacement, orders, grade))
             kept.push_back(buffer);
         count = buffer_from(device, std::vector<cl_int>{0});
@@ -178,62 +134,15 @@ Rendered shade_filtered(Context &context, const Material &material, const Scene 
     return rendered;
 }
 
-double shade_filtered_pairs(Context &context, const Material &given, const Displacement &x, Masking masking,
-                            const RenderOptions &options, std::size_t count, const float *wi, const float *wo,
-                            float *fcos) {
-    validate(x);
-    validate(masking);
-    const Effects on = everything(given, options.effects, masking).on;
-    const Material material = simplified(given, on);
-    const Displacement displacement = simplified(x, on);
-    const Grade grade = options.grade;
-    validate(grade, context);
-    validate_widening(options);
-    require(options.widening_order != widening_auto, "widening_order is -1 (auto); for pairs it must be 0..",
-            max_widening_order);
-    require_pair_count(count);
-    const std::size_t stride = round_up(count, context.width());
-    if (count == 0) return 0.0;
-
-    const Context::Lock lock(context);
-    const std::vector<int> orders = fixed_orders(material, displacement, options.widening_order);
-    const Program program(material, displacement, on, orders, grade);
-    const cl::Buffer out = empty_buffer<float>(context, 3 * stride);
-    const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
-    const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
-    const cl::Buffer lobes = lobe_buffer(context, material, displacement, grade);
-    const cl::Buffer curves = buffer_from(context, packed_curves(material));
-    const cl::Buffer knots = buffer_from(context, packed_knots(material));
-    cl::Kernel kernel = program.kernel(context, "pairs");
-    kernel.setArg(0, out);
-    kernel.setArg(1, static_cast<cl_int>(stride));
-    kernel.setArg(2, wi_buffer);
-    kernel.setArg(3, wo_buffer);
-    set_arg(kernel, 4, displacement, grade);
-    kernel.setArg(5, lobes);
-    kernel.setArg(6, static_cast<cl_int>(material.lobes.size()));
-    kernel.setArg(7, curves);
-    kernel.setArg(8, knots);
-    kernel.setArg(9, static_cast<cl_int>(material.theta_d.size()));
-    std::vector<cl::Buffer> kept;
-    if (program.widened) kept = set_widening(context, kernel, 10, material, displacement, orders, grade);
-    const double seconds = launch(context, kernel, stride / context.width(), 1, 0);
-
-    std::vector<float> planes(3 * stride);
-    context.queue().enqueueReadBuffer(out, CL_TRUE, 0, planes.size() * sizeof(float), planes.data());
-    from_planes(planes, count, fcos);
-    return seconds;
-}
-
 LobeValues eval_lobes(Context &context, const Material &material, const std::vector<int> &orders, const Scene &scene,
                       Effects on, Grade grade, std::size_t count, const float *wi, const float *wo) {
     const std::size_t stride = round_up(count, context.width());
-    const Program program(material, scene.displacement, on, orders, grade);
+    const FilteredKernels kernels(material, scene.displacement, on, orders, grade);
     const cl::Buffer out = empty_buffer<float>(context, orders.size() * stride);
     const cl::Buffer wi_buffer = buffer_from(context, to_planes(wi, count, stride));
     const cl::Buffer wo_buffer = buffer_from(context, to_planes(wo, count, stride));
     const cl::Buffer lobes = lobe_buffer(context, material, scene.displacement, grade);
-    cl::Kernel kernel = context.kernel("shade_widened.cl", "probe_widening", program.defines);
+    cl::Kernel kernel = context.kernel("shade_widened.cl", "probe_widening", kernels.defines);
     kernel.setArg(0, out);
     kernel.setArg(1, static_cast<cl_int>(stride));
     kernel.setArg(2, wi_buffer);

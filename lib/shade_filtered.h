@@ -11,12 +11,6 @@ namespace smx {
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options,
                         const Simulated &simulated);
 
-// f cos for `count` pairs of directions; wi, wo, fcos are [count][3], packed. Of the options, the grade, the widening's
-// order and the effects count; auto_effects, which needs an image, is all of them. Returns the seconds on the device.
-double shade_filtered_pairs(Context &context, const Material &material, const Displacement &displacement,
-                            Masking masking, const RenderOptions &options, std::size_t count, const float *wi,
-                            const float *wo, float *fcos);
-
 // Values of single lobes, without Fresnel factor, [entry][count], where entry j lobes + k is of lobe k by
 // orders[entry]. Of a material and a scene that are simplified already.
 struct LobeValues {

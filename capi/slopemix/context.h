@@ -43,9 +43,11 @@ typedef struct smx_context_options {
     uint32_t vector_width; /* 0: from the first device; else 1, 4, 8 or 16 evaluations per work-item */
     uint32_t sub_devices;  /* 0 or 1: devices are whole; else each is cut into as many like sub-devices, at most its
                               compute units; not with cl_context */
+    int copy_arrays;       /* nonzero: smx_evaluator_* copy the caller's arrays also where the device shares the host's
+                              memory, and could work on them in place */
 } smx_context_options;
 #define SMX_CONTEXT_OPTIONS_INIT \
-    { sizeof(smx_context_options), NULL, NULL, NULL, 0, 0 }
+    { sizeof(smx_context_options), NULL, NULL, NULL, 0, 0, 0 }
 
 /* Devices, their queues and the kernels built for them. Kernels are built on first use and kept. Rendering and
  * smx_brdf_integrate take tiles from one queue on all devices, with the same bits on any number of like devices at one

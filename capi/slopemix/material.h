@@ -152,6 +152,24 @@ SMX_API smx_status smx_material_save(smx_material material, const char *path);
 SMX_API smx_status smx_density_tabulate(smx_density density, smx_brdf *brdf);
 SMX_API smx_status smx_material_tabulate(smx_material material, smx_brdf *brdf);
 
+/** The material as the device header reads it (smx_device_header): a flat buffer of floats, its layout versioned and in
+ * docs/packed-material.md. It holds no pointers, and may be copied, stored and sent.
+ *
+ * @param material  the material
+ * @param words     [count], written; or NULL, to ask for the size alone
+ * @param count     with `words`, its number of floats, which must be the material's; NULL is an error
+ *                  On return the material's number of floats.
+ * @threads   any; the material is not changed
+ * @statuses  INVALID_ARGUMENT (also a *count that is not the material's) */
+SMX_API smx_status smx_material_pack(smx_material material, float *words, size_t *count);
+
+/** The device header, cl/slopemix.clh with all that it includes, as one text: a kernel's source may begin with it where
+ * the installed files are not at hand. Include guards are in it: once is enough.
+ *
+ * @return    the text, the library's own and valid for ever; never NULL but where memory is short
+ * @threads   any */
+SMX_API const char *smx_device_header(void);
+
 #ifdef __cplusplus
 }
 #endif
