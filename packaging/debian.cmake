@@ -45,7 +45,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/trigg
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libslopemix-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${debian_library} (= ${debian_version})")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS opencl-headers)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS opencl-headers) # for slopemix_opencl.h
 if(SLOPEMIX_STATIC)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", ocl-icd-opencl-dev, libopenexr-dev, libpng-dev, "
          "libssl-dev, libkissfft-dev, libceres-dev")
