@@ -5,10 +5,8 @@
 //   GRADE         0: precise, 1: fast, 2: double (vec.clh); default 0
 //   PER_LOBE      0: shared model, 1: per-lobe model (mixture.clh); default 0
 //   and what is simulated (effects.clh)
-#include "fresnel.clh"
-#include "mixture.clh"
+#include "fcos.clh"
 #include "pairs.clh"
-#include "rgb.clh"
 #include "sphere.clh"
 
 // f cos_i where F is one number per curve and channel.
@@ -44,22 +42,6 @@ __kernel void shade_filtered_sphere(__global float4 *rgba, SphereView view, int 
         if (anyW(e.visible)) fcos = fcos_at_one_angle(lobes, count, fresnel, &e);
     }
     store_rgba(rgba + band_row * view.width + first_column, fcos, inside, view.width - first_column);
-}
-
-// f cos_i of pairs by their Fresnel curves: one set, or one per lobe (fresnel.clh).
-inline RgbW fcos_of_pair(__constant const Lobe *lobes, int count, __global const float *curves, int knots,
-                         const KnotPosition *knot, const Evaluation *e) {
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-#if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(curves + 3 * k * knots, knots, knot);
-        sum = add_coloured(sum, f.r, f.g, f.b, lobe_value(lobes + k, e));
-    }
-#else
-    RgbW f = fresnel_of(curves, knots, knot);
-    sum = add_coloured(sum, f.r, f.g, f.b, shared_value(lobes, count, e));
-#endif
-    return scaled(sum, common_factor(e));
 }
 
 // Pairs of directions as structure of arrays: wi, wo and fcos each [3][stride], stride a multiple of W. `curves` holds

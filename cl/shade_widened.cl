@@ -10,19 +10,9 @@
 #define WIDENING 2
 #endif
 
-#include "fresnel.clh"
 #include "pairs.clh"
-#include "rgb.clh"
 #include "sphere.clh"
-#include "widen.clh"
-
-inline int lanes_of(intW mask) {
-    int lanes = 0;
-    integer in[W];
-    vstoreW(selectW((intW)0, (intW)1, mask), 0, in);
-    for (int lane = 0; lane < W; ++lane) lanes += (int)in[lane];
-    return lanes;
-}
+#include "widened_fcos.clh"
 
 // The sphere of the experiment, as in shade_filtered.cl. Adds to `unsettled` the visible pixels that have a lobe whose
 // peak the Newton steps did not settle.
@@ -72,17 +62,7 @@ __kernel void shade_widened_pairs(__global float *fcos, int stride, __global con
     Quadrature q = quadrature(&facets, orders, nodes, &e, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
     KnotPosition knot = knot_position(theta_d, knots, difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz));
 
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-#if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(curves + 3 * k * knots, knots, &knot);
-        sum = add_coloured(sum, f.r, f.g, f.b, widened_lobe(lobes, count, k, &e, &q));
-    }
-#else
-    RgbW f = fresnel_of(curves, knots, &knot);
-    sum = add_coloured(sum, f.r, f.g, f.b, widened_mixture(lobes, count, &e, &q));
-#endif
-    sum = scaled(sum, visible_quarter(&e));
+    RgbW sum = widened_fcos_of_pair(lobes, count, curves, knots, &knot, &e, &q);
     store_floatsW(sum.r, 0, fcos + at);
     store_floatsW(sum.g, 0, fcos + stride + at);
     store_floatsW(sum.b, 0, fcos + 2 * stride + at);
