@@ -260,18 +260,9 @@ TEST(Geometric, BadArgumentsAreRefused) {
     expect_refused("light is 3", [](Settings &s) { s.scene.light = beyond<smx_light>(); });
     expect_refused("geometric->size", [](Settings &s) { s.geometric.size = 1; });
     expect_refused("lookup is 3", [](Settings &s) { s.options.lookup = beyond<smx_lookup>(); });
-}
-
-TEST(Geometric, UniformLightIsOnlyTheirs) {
-    const test::Brdf brdf = open("builtin:conductor");
-    const test::Material material = test::make_material({{1.0, 0.2}});
-    Settings s(8, 0.5, 4, 4);
-    s.scene.light = SMX_LIGHT_UNIFORM;
+    const Settings s(8, 0.5, 4, 4);
     smx_image image = nullptr;
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "light is 1 (uniform)",
-                     smx_render_reference(test::context(), brdf, &s.scene, nullptr, &image, nullptr));
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "light is 1 (uniform)",
-                     smx_render_filtered(test::context(), material, &s.scene, nullptr, &image, nullptr));
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "brdf is null",
-                     smx_render_geometric(test::context(), nullptr, &s.scene, nullptr, &s.geometric, &image, nullptr));
+    EXPECT_SMX_FAILS(
+        SMX_INVALID_ARGUMENT, "brdf is null",
+        smx_render_geometric(test::context(), nullptr, &s.scene, &s.options, &s.geometric, &image, nullptr));
 }
