@@ -15,7 +15,7 @@ namespace {
 
 // A sample takes some 20 times as long as one of the reference's under a directional light. So launches are shorter,
 // and tiles smaller, that progress is told and a cancel heard as often.
-constexpr std::uint32_t part_evaluations = 1u << 22, tile_pixels = 1u << 14;
+constexpr std::uint32_t part_evaluations = 1u << 20, tile_pixels = 1u << 12;
 
 Tiling tiling_of(const Scene &scene, const RenderOptions &options) {
     Tiling tiling = options.tiling;
