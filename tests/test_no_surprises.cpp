@@ -88,7 +88,7 @@ std::vector<double> use_library(const test::TempDir &folder, smx_context context
 }
 
 // What beside the rounding is a mode: traps, and what becomes of denormal numbers.
-unsigned float_mode() {
+unsigned mode_of_floats() {
 #if defined(__x86_64__)
     constexpr unsigned flags = 0x3f; // of what has happened
     return _mm_getcsr() & ~flags;
@@ -113,7 +113,7 @@ struct State {
         s.c_locale = std::setlocale(LC_ALL, nullptr);
         s.cxx_locale = std::locale().name();
         s.rounding = std::fegetround();
-        s.float_mode = float_mode();
+        s.float_mode = mode_of_floats();
         for (int signal = 1; signal < NSIG; ++signal) {
             struct sigaction action {};
             sigaction(signal, nullptr, &action);
