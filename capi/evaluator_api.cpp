@@ -1,6 +1,4 @@
 // smx_evaluator_*
-#include <vector>
-
 #include "evaluator_handle.h"
 #include "render_arguments.h"
 
@@ -105,10 +103,9 @@ smx_status smx_evaluator_sample(smx_evaluator evaluator, size_t count, const smx
     return guarded([&] {
         require_pointer(evaluator, "evaluator");
         const HostArray uniform = read(u, "u"), to_viewer = read(wo, "wo"), drawn = written(wi, "wi");
-        std::vector<float> unused(pdf ? 0 : count); // the kernel writes densities in any case
-        const smx_scalars_out nowhere = {unused.data(), 1};
-        if (!pdf && count == 0) return;
-        const std::vector<HostArray> arrays = {drawn, written(pdf ? pdf : &nowhere, "pdf"), uniform, to_viewer};
+        // The kernel writes densities in any case.
+        const HostArray densities = pdf ? written(pdf, "pdf") : written_scalars(nullptr, 1);
+        const std::vector<HostArray> arrays = {drawn, densities, uniform, to_viewer};
         if (fcos)
             evaluator->object->sample(count, arrays, written(fcos, "fcos"));
         else

@@ -11,7 +11,8 @@
 struct smx_evaluator_s : smx::Handle<smx::Evaluator> {
     smx_evaluator_s(std::shared_ptr<smx::Context> on, std::shared_ptr<smx::Evaluator> evaluator)
         : Handle(std::move(evaluator)), context(std::move(on)) {}
-    std::shared_ptr<smx::Context> context; // which the evaluator refers to
+    ~smx_evaluator_s() { object.reset(); } // before the context, which it refers to
+    std::shared_ptr<smx::Context> context;
 };
 
 namespace smx {

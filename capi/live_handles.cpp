@@ -17,9 +17,10 @@ struct Registry {
     std::size_t next = 0;
 };
 
-// Never destroyed: a program may release handles as it ends.
-Registry &registry() {
-    static Registry &only = *new Registry;
+// Never destroyed: a program may release handles as it ends. In memory that is there: nothing here can fail.
+Registry &registry() noexcept {
+    alignas(Registry) static std::byte memory[sizeof(Registry)];
+    static Registry &only = *new (memory) Registry;
     return only;
 }
 

@@ -92,6 +92,7 @@ DeviceInfo device_info(const cl::Device &device) {
     info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.vector_width = vector_width(device);
     info.has_double = device.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
+    info.largest_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     info.shares_memory = device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE;
     return info;
 }

@@ -14,10 +14,11 @@ struct DeviceInfo {
     std::string name, vendor, version, driver, platform, platform_version;
     std::uint32_t compute_units = 0;
     std::uint64_t global_memory = 0;
-    std::uint32_t vector_width = 1; // evaluations per work-item
-    bool has_double = false;        // cl_khr_fp64
-    bool shares_memory = false;     // with the host
-    std::uint32_t devices = 1;      // that work together in a context
+    std::uint32_t vector_width = 1;   // evaluations per work-item
+    bool has_double = false;          // cl_khr_fp64
+    bool shares_memory = false;       // with the host
+    std::uint64_t largest_buffer = 0; // bytes
+    std::uint32_t devices = 1;        // that work together in a context
 };
 
 std::vector<cl::Device> all_devices();

@@ -1,6 +1,7 @@
 #include "evaluator.h"
 
 #include <algorithm>
+#include <array>
 
 #include "choose_effects.h"
 #include "device_buffer.h"
@@ -15,45 +16,29 @@ namespace {
 // Elements of one launch: kernels count in int, and copies, where arrays are copied, stay small.
 constexpr std::size_t part_size = std::size_t{1} << 22;
 
-struct KernelName {
-    const char *name;
+// A quantity's kernel, what its lobes count, and the coordinates of its arrays in their order.
+struct Form {
+    const char *kernel; // of cl/evaluate.cl; null: of filtered shading
     LobeWeight weights;
+    std::vector<std::size_t> coordinates;
 };
 
-// Of cl/evaluate.cl.
-KernelName kernel_name(Quantity quantity) {
-    switch (quantity) {
-        case Quantity::Pdf:
-            return {"evaluate_pdf", LobeWeight::Drawn};
-        case Quantity::Sample:
-            return {"evaluate_sample", LobeWeight::Drawn};
-        case Quantity::Ndf:
-            return {"evaluate_ndf", LobeWeight::Surface};
-        case Quantity::Sigma:
-            return {"evaluate_sigma", LobeWeight::Surface};
-        case Quantity::G1:
-            return {"evaluate_g1", LobeWeight::Surface};
-        case Quantity::G2:
-            return {"evaluate_g2", LobeWeight::Surface};
-        case Quantity::Fcos:
-            break;
-    }
-    fail(Fault::Internal, "no kernel of cl/evaluate.cl for quantity ", static_cast<int>(quantity));
+const Form &form_of(Quantity quantity) {
+    static const std::array<Form, 7> forms = {{{nullptr, LobeWeight::Model, {3, 3, 3}},
+                                               {"evaluate_pdf", LobeWeight::Drawn, {1, 3, 3}},
+                                               {"evaluate_sample", LobeWeight::Drawn, {3, 1, 3, 3}},
+                                               {"evaluate_ndf", LobeWeight::Surface, {1, 3}},
+                                               {"evaluate_sigma", LobeWeight::Surface, {1, 3}},
+                                               {"evaluate_g1", LobeWeight::Surface, {1, 3}},
+                                               {"evaluate_g2", LobeWeight::Surface, {1, 3, 3}}}};
+    return forms[static_cast<std::size_t>(quantity)];
 }
 
-// Arguments of a quantity's arrays, and their number of elements.
-cl_uint array_arguments(Quantity quantity) {
-    switch (quantity) {
-        case Quantity::Fcos:
-            return 3 * 4 + 1;
-        case Quantity::Sample:
-            return 4 + 2 + 2 * 4 + 1;
-        case Quantity::Pdf:
-        case Quantity::G2:
-            return 2 + 2 * 4 + 1;
-        default:
-            return 2 + 4 + 1;
-    }
+// Arguments of the arrays, a buffer for each coordinate and their places, and of the number of elements.
+cl_uint array_arguments(const Form &form) {
+    cl_uint count = 1;
+    for (const std::size_t coordinates : form.coordinates) count += static_cast<cl_uint>(coordinates) + 1;
+    return count;
 }
 
 int checked_order(const RenderOptions &options) {
@@ -90,26 +75,26 @@ Evaluator::Evaluator(Context &context, const Material &material, const Displacem
 double Evaluator::drawn_bound() const { return smx::drawn_bound(material_); }
 
 cl::Kernel &Evaluator::kernel(Quantity quantity) {
-    if (const auto found = built_.find(quantity); found != built_.end()) return found->second;
-    // f cos takes the curves too, and where lobes are widened by an order, its nodes.
-    const bool fcos = quantity == Quantity::Fcos;
-    const KernelName named = fcos ? KernelName{"", LobeWeight::Model} : kernel_name(quantity);
+    if (const auto found = built_.find(quantity); found != built_.end()) return found->second.kernel;
+    const Form &form = form_of(quantity);
     Defines defines = kernels_.defines;
     for (const char *only_of_fcos : {"FRESNEL", "WIDENING"}) defines.erase(only_of_fcos);
-    cl::Kernel kernel = fcos ? kernels_.kernel(context_, "pairs") : context_.kernel("evaluate.cl", named.name, defines);
-    cl_uint next = array_arguments(quantity);
+    cl::Kernel kernel =
+        form.kernel ? context_.kernel("evaluate.cl", form.kernel, defines) : kernels_.kernel(context_, "pairs");
+    cl_uint next = array_arguments(form);
     set_arg(kernel, next++, displacement_, grade_);
-    kept_.push_back(lobe_buffer(context_, material_, displacement_, grade_, named.weights));
-    kernel.setArg(next++, kept_.back());
+    std::vector<cl::Buffer> buffers = {lobe_buffer(context_, material_, displacement_, grade_, form.weights)};
+    kernel.setArg(next++, buffers[0]);
     kernel.setArg(next++, static_cast<cl_int>(material_.lobes.size()));
-    if (fcos) {
-        kept_.push_back(buffer_from(context_, packed(material_)));
-        kernel.setArg(next++, kept_.back());
+    if (quantity == Quantity::Fcos) {
+        // The curves too, and where lobes are widened by an order, its nodes.
+        buffers.push_back(buffer_from(context_, packed(material_)));
+        kernel.setArg(next++, buffers[1]);
         if (kernels_.widened)
             for (const cl::Buffer &b : set_widening(context_, kernel, next, material_, displacement_, orders_, grade_))
-                kept_.push_back(b);
+                buffers.push_back(b);
     }
-    return built_.emplace(quantity, kernel).first->second;
+    return built_.emplace(quantity, Built{kernel, std::move(buffers)}).first->second.kernel;
 }
 
 cl::Kernel &Evaluator::kernel_of(Quantity quantity, std::size_t count, const std::vector<DeviceArray> &arrays) {
@@ -138,8 +123,13 @@ double Evaluator::in_parts(std::size_t count, const std::vector<HostArray> &arra
 }
 
 void Evaluator::build(Quantity quantity) {
+    // A float that is neither read nor written, in place of each array.
     const Context::Lock lock(context_);
-    kernel(quantity);
+    const cl::Buffer one = empty_buffer<float>(context_, 1);
+    std::vector<DeviceArray> nothing;
+    for (const std::size_t coordinates : form_of(quantity).coordinates)
+        nothing.push_back({coordinates, {one, one, one}, {0, 0, 0}, 1});
+    run(quantity, 0, nothing);
 }
 
 double Evaluator::evaluate(Quantity quantity, std::size_t count, const std::vector<HostArray> &arrays) {
@@ -162,6 +152,7 @@ cl::Event Evaluator::enqueue(Quantity quantity, std::size_t count, const std::ve
     cl::Event event;
     if (count == 0) {
         context_.queue().enqueueMarkerWithWaitList(&wait, &event);
+        context_.queue().flush();
         return event;
     }
     // The queue is in order: what waits is the first part, and the last one ends last.

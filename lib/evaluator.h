@@ -31,18 +31,17 @@ class Evaluator {
     Evaluator(Context &context, const Material &material, const Displacement &displacement, Masking masking,
               const RenderOptions &options);
 
-    Context &context() const { return context_; }
-
     // Bound of fcos / pdf of what Sample draws, in closed form (lobe_weights.h).
     double drawn_bound() const;
 
-    // Builds the kernel of a quantity, where it is not built yet.
+    // Builds the kernel of a quantity, where it is not built yet, and launches it once on nothing: a driver may compile
+    // it as late as that.
     void build(Quantity quantity);
 
     // On the host's arrays, [count] each; returns when they are written, with the seconds on the device.
     double evaluate(Quantity quantity, std::size_t count, const std::vector<HostArray> &arrays);
 
-    // Sample, and f cos of what it drew: arrays [wi, pdf; u, wo], and fcos.
+    // Sample, and f cos of what it drew: arrays [wi, pdf; u, wo], and fcos. Densities that are null are dropped.
     double sample(std::size_t count, const std::vector<HostArray> &arrays, const HostArray &fcos);
 
     // On buffers of the context, after the events of `wait`, where there are any; returns at once, with the event of
@@ -51,6 +50,11 @@ class Evaluator {
                       const std::vector<cl::Event> &wait);
 
   private:
+    // A kernel does not keep what it reads alive.
+    struct Built {
+        cl::Kernel kernel;
+        std::vector<cl::Buffer> buffers;
+    };
     using Run = std::function<double(const std::vector<DeviceArray> &, std::size_t count)>;
 
     cl::Kernel &kernel(Quantity quantity);
@@ -65,8 +69,7 @@ class Evaluator {
     Grade grade_;
     std::vector<int> orders_;
     FilteredKernels kernels_;
-    std::map<Quantity, cl::Kernel> built_;
-    std::vector<cl::Buffer> kept_; // what kernels read: they do not keep it alive
+    std::map<Quantity, Built> built_;
 };
 
 } // namespace smx

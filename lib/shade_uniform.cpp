@@ -44,7 +44,7 @@ UniformKernel kernel_of(Context &device, const Simplified &simple, const std::ve
     return own;
 }
 
-// Takes what a tile has counted, and begins anew.
+// Takes what a launch has counted, and begins anew.
 std::uint64_t take_count(Context &device, const UniformKernel &own) {
     cl_int counted = 0;
     device.queue().enqueueReadBuffer(own.kept[kept_count], CL_TRUE, 0, sizeof counted, &counted);
@@ -71,7 +71,7 @@ Rendered shade_uniform(Context &context, const Material &material, const Scene &
 
     UniformImage image;
     image.start = [&](Context &device) { return kernel_of(device, simple, orders, options.grade); };
-    image.finish_tile = [&](Context &device, const UniformKernel &own) { unsettled += take_count(device, own); };
+    image.finish_part = [&](Context &device, const UniformKernel &own) { unsettled += take_count(device, own); };
     image.describe = [&](std::uint32_t spp) {
         Attributes attributes = describe_filtered(material, scene, options, simulated, all_orders);
         attributes["slopemix.spp"] = std::to_string(spp);

@@ -21,10 +21,6 @@ float *unconst(const float *p) { return const_cast<float *>(p); }
 
 } // namespace
 
-HostArray read_scalars(const float *values, std::size_t stride) {
-    return {1, {unconst(values), nullptr, nullptr}, stride, false};
-}
-
 HostArray read_vectors(const float *x, const float *y, const float *z, std::size_t stride) {
     return {3, {unconst(x), unconst(y), unconst(z)}, stride, false};
 }
@@ -50,37 +46,47 @@ cl_uint set_arg(cl::Kernel &kernel, cl_uint index, const DeviceArray &array) {
 
 MappedArrays::MappedArrays(Context &context, const std::vector<HostArray> &arrays, std::size_t first, std::size_t count)
     : context_(context), count_(count) {
-    if (context.shares_memory())
+    if (context.shares_memory() && can_share(arrays, first))
         share(arrays, first);
     else
         copy(arrays, first);
 }
 
-void MappedArrays::share(const std::vector<HostArray> &arrays, std::size_t first) {
-    // Join what overlaps: of a buffer on the host's memory no part may be in another.
+// Finds the regions: joins what overlaps, since of a buffer on the host's memory no part may be in another.
+bool MappedArrays::can_share(const std::vector<HostArray> &arrays, std::size_t first) {
     std::vector<Region> spans;
     for (const HostArray &array : arrays)
-        for (std::size_t c = 0; c < array.coordinates; ++c) {
+        for (std::size_t c = 0; c < array.coordinates && array.at[0]; ++c) {
             float *begin = array.at[c] + first * array.stride;
             spans.push_back({begin, begin + (count_ - 1) * array.stride + 1, array.is_written, {}});
         }
     std::sort(spans.begin(), spans.end(),
               [](const Region &a, const Region &b) { return std::less<>()(a.begin, b.begin); });
+    std::vector<Region> joined;
     for (const Region &span : spans) {
-        if (regions_.empty() || !std::less<>()(span.begin, regions_.back().end)) {
-            regions_.push_back(span);
+        if (joined.empty() || !std::less<>()(span.begin, joined.back().end)) {
+            joined.push_back(span);
             continue;
         }
-        Region &joined = regions_.back();
-        joined.end = std::max(joined.end, span.end, std::less<>());
-        joined.is_written = joined.is_written || span.is_written;
+        Region &last = joined.back();
+        last.end = std::max(last.end, span.end, std::less<>());
+        last.is_written = last.is_written || span.is_written;
     }
-    for (Region &r : regions_)
-        r.buffer =
-            shared_buffer(context_, static_cast<std::size_t>(r.end - r.begin) * sizeof(float), r.begin, r.is_written);
+    const bool all_fit = std::all_of(joined.begin(), joined.end(),
+                                     [&](const Region &r) { return r.bytes() <= context_.info().largest_buffer; });
+    if (all_fit) regions_ = std::move(joined);
+    return all_fit;
+}
+
+void MappedArrays::share(const std::vector<HostArray> &arrays, std::size_t first) {
+    for (Region &r : regions_) r.buffer = shared_buffer(context_, r.bytes(), r.begin, r.is_written);
 
     // Every coordinate lies in one of them.
     for (const HostArray &array : arrays) {
+        if (!array.at[0]) {
+            on_device_.push_back(dropped(array));
+            continue;
+        }
         DeviceArray found{array.coordinates, {}, {}, array.stride};
         for (std::size_t c = 0; c < array.coordinates; ++c) {
             const float *begin = array.at[c] + first * array.stride;
@@ -94,9 +100,19 @@ void MappedArrays::share(const std::vector<HostArray> &arrays, std::size_t first
     }
 }
 
+DeviceArray MappedArrays::dropped(const HostArray &array) const {
+    DeviceArray nowhere{array.coordinates, {}, {}, 1};
+    for (std::size_t c = 0; c < array.coordinates; ++c) nowhere.in[c] = empty_buffer<float>(context_, count_);
+    return nowhere;
+}
+
 void MappedArrays::copy(const std::vector<HostArray> &arrays, std::size_t first) {
     std::vector<float> plane(count_);
     for (const HostArray &array : arrays) {
+        if (!array.at[0]) {
+            on_device_.push_back(dropped(array));
+            continue;
+        }
         DeviceArray copied{array.coordinates, {}, {}, 1};
         for (std::size_t c = 0; c < array.coordinates; ++c) {
             float *host = array.at[c] + first * array.stride;
@@ -113,8 +129,7 @@ void MappedArrays::finish() {
     const cl::CommandQueue &queue = context_.queue();
     for (const Region &r : regions_) {
         if (!r.is_written) continue;
-        const std::size_t bytes = static_cast<std::size_t>(r.end - r.begin) * sizeof(float);
-        void *mapped = queue.enqueueMapBuffer(r.buffer, CL_TRUE, CL_MAP_READ, 0, bytes);
+        void *mapped = queue.enqueueMapBuffer(r.buffer, CL_TRUE, CL_MAP_READ, 0, r.bytes());
         queue.enqueueUnmapMemObject(r.buffer, mapped);
     }
     std::vector<float> plane(count_);

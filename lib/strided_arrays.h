@@ -10,7 +10,8 @@
 
 namespace smx {
 
-// `coordinates` 1 or 3: element k of coordinate c is at[c][k * stride]. Read, or written.
+// `coordinates` 1 or 3: element k of coordinate c is at[c][k * stride]. Read, or written; what is written and null is
+// dropped.
 struct HostArray {
     std::size_t coordinates;
     std::array<float *, 3> at;
@@ -18,7 +19,6 @@ struct HostArray {
     bool is_written;
 };
 
-HostArray read_scalars(const float *values, std::size_t stride);
 HostArray read_vectors(const float *x, const float *y, const float *z, std::size_t stride);
 HostArray written_scalars(float *values, std::size_t stride);
 HostArray written_vectors(float *x, float *y, float *z, std::size_t stride);
@@ -37,7 +37,8 @@ struct DeviceArray {
 cl_uint set_arg(cl::Kernel &kernel, cl_uint index, const DeviceArray &array);
 
 // Elements first ... first + count - 1 of host arrays, count >= 1, as a device has them. Where the device shares the
-// host's memory, arrays that have memory in common are one buffer on it; else each coordinate is copied.
+// host's memory, arrays that have memory in common are one buffer on it; else, and where one would be larger than the
+// device takes, each coordinate is copied.
 class MappedArrays {
   public:
     MappedArrays(Context &context, const std::vector<HostArray> &arrays, std::size_t first, std::size_t count);
@@ -53,6 +54,7 @@ class MappedArrays {
         float *begin, *end;
         bool is_written;
         cl::Buffer buffer;
+        std::size_t bytes() const { return static_cast<std::size_t>(end - begin) * sizeof(float); }
     };
     // A coordinate that is copied.
     struct Copy {
@@ -62,8 +64,10 @@ class MappedArrays {
         cl::Buffer buffer;
     };
 
+    bool can_share(const std::vector<HostArray> &arrays, std::size_t first);
     void share(const std::vector<HostArray> &arrays, std::size_t first);
     void copy(const std::vector<HostArray> &arrays, std::size_t first);
+    DeviceArray dropped(const HostArray &array) const;
 
     Context &context_;
     std::size_t count_;

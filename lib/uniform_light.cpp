@@ -13,7 +13,7 @@ namespace smx {
 
 namespace {
 
-// A sample takes some 20 times as long as one of the reference's under a directional light. So launches are shorter,
+// A sample takes many times as long as one of the reference's under a directional light. So launches are shorter,
 // and tiles smaller, that progress is told and a cancel heard as often.
 constexpr std::uint32_t part_evaluations = 1u << 20, tile_pixels = 1u << 12;
 
@@ -100,9 +100,10 @@ Rendered render_uniform(Context &context, const Scene &scene, const Displacement
                 const UniformKernel own = image.start(device);
                 const auto integral = std::make_shared<UniformIntegral>(device, task, most_rows, own);
                 return [&, own, integral](const Tile &tile, const TileRows &to, const Step &step) {
-                    const double taken = integral->integrate(tile, to, seen, step);
-                    if (image.finish_tile) image.finish_tile(device, own);
-                    return taken;
+                    return integral->integrate(tile, to, seen, [&](double share) {
+                        if (image.finish_part) image.finish_part(device, own);
+                        step(share);
+                    });
                 };
             });
         return {task.plan.samples(), seconds, task.plan.scrambles > 1 ? seen.relative() : -1.0};

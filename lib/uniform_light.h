@@ -45,12 +45,12 @@ class UniformIntegral {
     std::vector<float> unkept_errors_;
 };
 
-// The whole of such an image: as many samples as the options ask for. `start` makes a device's kernel; after a tile
-// `finish_tile`, which may be empty, is called in the device's thread. `describe` has the attributes for a number of
-// samples.
+// The whole of such an image: as many samples as the options ask for. `start` makes a device's kernel; after every
+// launch `finish_part`, which may be empty, is called in the device's thread. `describe` has the attributes for a
+// number of samples.
 struct UniformImage {
     std::function<UniformKernel(Context &device)> start;
-    std::function<void(Context &device, const UniformKernel &)> finish_tile;
+    std::function<void(Context &device, const UniformKernel &)> finish_part;
     std::function<Attributes(std::uint32_t spp)> describe;
 };
 Rendered render_uniform(Context &context, const Scene &scene, const Displacement &simulated,

@@ -1,5 +1,5 @@
 # `cpack` makes Debian packages, one per component. The preset `package` builds what belongs into them.
-set(SLOPEMIX_MAINTAINER "slopemix maintainers <maintainers@users.noreply.h-seed-d38a157f.example>"
+set(SLOPEMIX_MAINTAINER "slopemix maintainers <maintainers@slopemix.invalid>"
     CACHE STRING "Maintainer of the packages, NAME <ADDRESS>")
 set(SLOPEMIX_DEBIAN_REVISION 1 CACHE STRING "What stands behind the version in the packages' own")
 set(debian_version ${PROJECT_VERSION}-${SLOPEMIX_DEBIAN_REVISION})

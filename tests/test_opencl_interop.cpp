@@ -206,6 +206,27 @@ TEST(Interop, RefusesWhatIsNotOfTheContextOrTooSmall) {
                      smx_enqueue_of_pairs(f.evaluator, SMX_QUANTITY_NDF, 1, &v, &v, &out, 0, nullptr, nullptr));
     EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "quantity is 2",
                      smx_enqueue_of_directions(f.evaluator, SMX_QUANTITY_PDF, 1, &v, &out, 0, nullptr, nullptr));
+    // So are handles that were released.
+    test::Context context;
+    ASSERT_SMX_OK(smx_context_create(nullptr, context.out()));
+    const smx_context gone_context = context.get();
+    const smx_evaluator gone = [&] {
+        Evaluator made;
+        EXPECT_SMX_OK(smx_evaluator_create(f.context, f.material, &f.x, SMX_G2_CORRELATED, nullptr, made.out()));
+        return made.get();
+    }();
+    context = test::Context();
+    cl_context untouched = nullptr;
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "context was released",
+                     smx_context_get_opencl(gone_context, &untouched, nullptr, nullptr));
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "evaluator was released",
+                     smx_enqueue_eval(gone, count, &v, &v, &v, 0, nullptr, nullptr));
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "evaluator was released",
+                     smx_enqueue_sample(gone, count, &v, &v, &v, &out, 0, nullptr, nullptr));
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "evaluator was released",
+                     smx_enqueue_of_pairs(gone, SMX_QUANTITY_PDF, count, &v, &v, &out, 0, nullptr, nullptr));
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "evaluator was released",
+                     smx_enqueue_of_directions(gone, SMX_QUANTITY_NDF, count, &v, &out, 0, nullptr, nullptr));
     // None at all is legal, and has an end.
     cl_event done = nullptr;
     ASSERT_SMX_OK(smx_enqueue_eval(f.evaluator, 0, &v, &v, &v, 0, nullptr, &done));

@@ -47,7 +47,8 @@ void print_text(const std::vector<BenchRow> &rows, const std::string &device) {
 
 void run(const BenchFlags &flags) {
     Progress progress(shading_jobs + widening_jobs + effects_jobs + evaluator_jobs + reference_jobs + geometric_jobs);
-    BenchJob job{open_context(flags.render), flags.quick ? 1 : 7, progress, {}};
+    const auto open = [&] { return open_context(flags.render); };
+    BenchJob job{open, open(), flags.quick ? 1 : 7, progress, {}};
     const smx_device_info device = info_of(job.context);
     if (device.devices > 1)
         throw CommandError("bench measures one device, and these are " + std::to_string(device.devices));

@@ -122,9 +122,9 @@ void bench_grade(BenchJob &job, const Material &material, smx_grade grade, Array
 }
 
 // A renderer's beginning and one glance: a context, a material, ten directions.
-double seconds_to_begin(const ShadingCase &what, smx_context existing, Arrays &a) {
+double seconds_to_begin(const BenchJob &job, const ShadingCase &what, smx_context existing, Arrays &a) {
     return seconds_of_call([&] {
-        const Context made = existing ? nullptr : acquire<Context>(smx_context_create, nullptr);
+        const Context made = existing ? nullptr : job.open();
         const Material material = acquire<Material>([&](smx_material *m) { return make_material(what, m); });
         const smx_displacement x = {0.25, 0.25, 0.0, 0.0, 0.0};
         const Evaluator evaluator = acquire<Evaluator>(smx_evaluator_create, existing ? existing : made.get(),
@@ -138,8 +138,8 @@ double seconds_to_begin(const ShadingCase &what, smx_context existing, Arrays &a
 void bench_beginning(BenchJob &job, const ShadingCase &what, Arrays &a) {
     Times second, same;
     for (int run = 0; run < job.rounds; ++run) {
-        second.add(seconds_to_begin(what, nullptr, a), 1.0);
-        same.add(seconds_to_begin(what, job.context.get(), a), 1.0);
+        second.add(seconds_to_begin(job, what, nullptr, a), 1.0);
+        same.add(seconds_to_begin(job, what, job.context.get(), a), 1.0);
     }
     job.rows.push_back(
         {"evaluator.second-context.n8", SMX_GRADE_PRECISE, second.median(), "same-context", same.median()});

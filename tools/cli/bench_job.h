@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct BenchRow {
 };
 
 struct BenchJob {
-    Context context;
-    int rounds; // turns of a case and its baselines
+    std::function<Context()> open;
+    Context context; // the first of them
+    int rounds;      // turns of a case and its baselines
     Progress &progress;
     std::vector<BenchRow> rows;
 };
