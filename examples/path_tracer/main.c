@@ -64,14 +64,16 @@ static void read_flag(const char *flag, const char *value, Arguments *a) {
     }
 }
 
-/* Writes NAME and an ending. */
+/* Writes NAME and an ending. The picture's exposure leaves but the brightest thousandth of its values to clip. */
 static void write_image(smx_image image, const char *name) {
     char path[4096];
+    double brightest;
     EXPECT(strlen(name) + 5 <= sizeof path);
     sprintf(path, "%s.exr", name);
     OK(smx_image_write_exr(image, path));
     sprintf(path, "%s.png", name);
-    OK(smx_image_write_png(image, path, 1.0));
+    OK(smx_image_quantile(image, 0.99, &brightest));
+    OK(smx_image_write_png(image, path, brightest > 0.0 ? 1.0 / brightest : 1.0));
     printf("%s.exr and %s.png\n", name, name);
 }
 

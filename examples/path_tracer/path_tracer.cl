@@ -51,7 +51,7 @@ inline float lamp_distance(__global const Lamp *lamp, float3 from, float3 d) {
 
 // Tiles of side 1, every other one rough.
 inline Hit floor_hit(const Settings *s, float t, float3 p) {
-    float alpha = ((int)floor(p.x) + (int)floor(p.y)) & 1 ? 0.0f : 0.12f;
+    float alpha = ((int)floor(p.x) + (int)floor(p.y)) & 1 ? 0.0f : s->tile_alpha;
     Hit h = {t, (float3)(0, 0, 1), (float3)(1, 0, 0), (float3)(0, 1, 0), alpha, alpha, s->floor_material};
     return h;
 }
@@ -65,7 +65,7 @@ inline Hit sphere_hit(__global const Sphere *s, float t, float3 p) {
     float2 azimuth = length2 > 0.0f ? across * rsqrt(length2) : (float2)(1, 0); // at the poles any will do
     h.y = (float3)(-azimuth.y, azimuth.x, 0.0f);
     h.x = cross(h.y, h.normal);
-    float more = s->alpha_right * (0.5f + 0.5f * h.normal.x);
+    float right = 0.5f + 0.5f * h.normal.x, more = s->alpha_right * right * right;
     h.alpha_x = s->alpha_x + more, h.alpha_y = s->alpha_y + more;
     h.material = s->material;
     return h;
@@ -93,7 +93,7 @@ inline bool is_free(const Settings *s, __global const Sphere *spheres, float3 fr
 inline float3 sky(const Settings *s, float3 d) {
     if (s->white_sky) return 1.0f;
     float height = sqrt(max(d.z, 0.0f));
-    return mix((float3)(0.62f, 0.56f, 0.52f), (float3)(0.05f, 0.11f, 0.26f), height);
+    return mix((float3)(0.85f, 0.75f, 0.68f), (float3)(0.1f, 0.2f, 0.42f), height);
 }
 
 inline float3 radiance_of(__global const Lamp *lamp) { return (float3)(lamp->r, lamp->g, lamp->b); }

@@ -7,7 +7,7 @@
 typedef struct {
     float x, y, z, radius;
     float alpha_x, alpha_y; /* roughness below the pixel */
-    float alpha_right;      /* what both have more at the right end of the sphere, linearly from its left end */
+    float alpha_right;      /* what both have more at the sphere's right end, by the square from its left end */
     int material;           /* where its words begin */
 } Sphere;
 
@@ -36,6 +36,7 @@ typedef struct {
     int bounces;       /* surfaces on a path, at most */
     int white_sky;     /* radiance 1 from everywhere */
     float least_alpha; /* what every surface is roughened by */
+    float tile_alpha;  /* of every other tile of the floor */
     int floor_material;
     int spheres, lamps;
 } Settings;

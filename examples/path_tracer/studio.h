@@ -5,14 +5,25 @@
 #include "scene.h"
 #include "slopemix.h"
 
-enum { BLACK_OBSIDIAN, BLUE_ACRYLIC, BRASS, CHROME, GOLD_PAINT, RED_FABRIC, WHITE_MARBLE, STUDIO_MATERIALS };
-enum { STUDIO_SPHERES = 16, STUDIO_LAMPS = 2 };
+enum {
+    BLACK_PHENOLIC,
+    BLUE_ACRYLIC,
+    BRASS,
+    CHROME,
+    GOLD_PAINT,
+    RED_FABRIC,
+    RED_PHENOLIC,
+    WHITE_MARBLE,
+    STUDIO_MATERIALS
+};
+enum { STUDIO_SPHERES = 16, STUDIO_LAMPS = 3 };
 
 typedef struct {
     Camera camera;
     Sphere spheres[STUDIO_SPHERES];
     Lamp lamps[STUDIO_LAMPS];
     int sphere_count, lamp_count, floor_material;
+    float tile_alpha;
     float *words; /* of all materials, one behind the other */
     size_t word_count;
 } Studio;

@@ -67,9 +67,10 @@ static Settings settings_of(const Studio *studio, const TraceOptions *o) {
     s.seed = o->seed;
     s.by_cosine = o->by_cosine, s.white_sky = o->white_sky, s.bounces = o->bounces;
     s.least_alpha = o->least_alpha;
+    s.tile_alpha = studio->tile_alpha;
     s.floor_material = studio->floor_material;
     s.spheres = studio->sphere_count;
-    s.lamps = o->white_sky ? 0 : studio->lamp_count;
+    s.lamps = studio->lamp_count;
     return s;
 }
 

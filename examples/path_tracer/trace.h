@@ -12,7 +12,7 @@ typedef struct {
     int samples; /* per pixel, a multiple of PASSES */
     int seed;
     int by_cosine;     /* directions by the cosine, not by the material's lobes */
-    int white_sky;     /* radiance 1 from everywhere, and no lamps */
+    int white_sky;     /* radiance 1 from everywhere but the lamps */
     int bounces;       /* surfaces on a path, at most */
     float least_alpha; /* what every surface is roughened by */
 } TraceOptions;
