@@ -17,29 +17,9 @@
 //   and what is simulated of X (effects.clh)
 #include "facet_integral.clh"
 #include "fresnel.clh"
-#include "masking.clh"
 #include "pairs.clh"
 #include "sphere.clh"
-
-// G2_X / p_o of W pairs. 0 where a direction is not above the mean plane.
-inline realW masking_factor(const Displacement *x, realW ix, realW iy, realW iz, realW ox, realW oy, realW oz,
-                            intW visible) {
-    realW p_i = mean_plane(x, ix, iy, iz), p_o = mean_plane(x, ox, oy, oz);
-    visible = visible && (p_i > (realW)0.0f) && (p_o > (realW)0.0f);
-
-    // Lanes that are not visible work on harmless numbers and are dropped at the end.
-    realW safe_i = selectW((realW)1.0f, p_i, visible), safe_o = selectW((realW)1.0f, p_o, visible);
-    realW factor = g2_over_po(safe_i, safe_o, beckmann_sigma_beyond_p(safe_i, displacement_s2(x, ix, iy)),
-                              beckmann_sigma_beyond_p(safe_o, displacement_s2(x, ox, oy)));
-    return selectW((realW)0.0f, factor, visible);
-}
-
-inline void store_estimate(__global float4 *rgba, __global float4 *error, const Estimate *e, float factor,
-                           int scrambles) {
-    float inv_pairs = scrambles > 1 ? 1.0f / ((float)scrambles * (float)(scrambles - 1)) : 0.0f;
-    *rgba = (float4)(e->mean.xyz * factor, 1.0f);
-    *error = (float4)(sqrt(e->deviations.xyz * inv_pairs) * factor, 1.0f);
-}
+#include "surface_masking.clh"
 
 // Adds a part to the first `count` of W pairs, of number `at` in the buffers.
 inline void integrate(__global float4 *rgba, __global float4 *errors, __global Estimate *estimates, int at, int count,

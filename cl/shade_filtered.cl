@@ -7,7 +7,6 @@
 //   and what is simulated (effects.clh)
 #include "fcos.clh"
 #include "packed.clh"
-#include "rgb.clh"
 #include "sphere.clh"
 #include "strided.clh"
 

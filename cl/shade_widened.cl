@@ -10,21 +10,11 @@
 #define WIDENING 2
 #endif
 
-#include "fcos.clh"
 #include "packed.clh"
 #include "pairs.clh"
-#include "rgb.clh"
 #include "sphere.clh"
 #include "strided.clh"
-#include "widen.clh"
-
-inline int lanes_of(intW mask) {
-    int lanes = 0;
-    integer in[W];
-    vstoreW(selectW((intW)0, (intW)1, mask), 0, in);
-    for (int lane = 0; lane < W; ++lane) lanes += (int)in[lane];
-    return lanes;
-}
+#include "widened_fcos.clh"
 
 // The sphere of the experiment, as in shade_filtered.cl. Adds to `unsettled` the visible pixels that have a lobe whose
 // peak the Newton steps did not settle.
@@ -79,18 +69,8 @@ __kernel void shade_widened_pairs(__global float *fcos_x, __global float *fcos_y
     Curves curves = packed_curves(packed);
     KnotPosition knot = knot_of(&curves, wi, wo);
 
-    RgbW sum = {(realW)0.0f, (realW)0.0f, (realW)0.0f};
-#if PER_LOBE
-    for (int k = 0; k < count; ++k) {
-        RgbW f = fresnel_of(&curves, k, &knot);
-        sum = add_coloured(sum, f.r, f.g, f.b, widened_lobe(lobes, count, k, &e, &q));
-    }
-#else
-    RgbW f = fresnel_of(&curves, 0, &knot);
-    sum = add_coloured(sum, f.r, f.g, f.b, widened_mixture(lobes, count, &e, &q));
-#endif
-    sum = scaled(sum, visible_quarter(&e));
-    VectorW out = {sum.r, sum.g, sum.b};
+    RgbW fcos = widened_fcos_of_pair(lobes, count, &curves, &knot, &e, &q);
+    VectorW out = {fcos.r, fcos.g, fcos.b};
     store_vectors(out, fcos_x, fcos_y, fcos_z, fcos_at, at, pairs);
 }
 

@@ -204,7 +204,9 @@ EffectChoice EffectChoices::judged(const Scene &scene, const RenderOptions &opti
 
 std::pair<Simulated, double> EffectChoices::simulated(const Scene &scene, const RenderOptions &options) {
     validate_tolerance(options);
-    if (options.effects != auto_effects) return {everything(*material_, options.effects, scene.masking), 0.0};
+    // Judged are images of one theta_d: of others auto is all.
+    if (options.effects != auto_effects || scene.light == Light::Uniform)
+        return {everything(*material_, options.effects, scene.masking), 0.0};
     const EffectChoice choice = judged(scene, options);
     return {choice.simulated, choice.seconds};
 }

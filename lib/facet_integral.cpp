@@ -6,6 +6,7 @@
 
 #include "brdf.h"
 #include "device_buffer.h"
+#include "device_estimate.h"
 
 namespace smx {
 
@@ -14,11 +15,6 @@ namespace {
 constexpr const char *kernel_file = "integrate_reference.cl", *drawing_file = "draw_facets.cl";
 
 constexpr std::size_t planes_of_x = 5, planes_about_wh = 4; // that draw_facets.cl writes
-
-// An Estimate in cl/facet_integral.clh.
-struct DeviceEstimate {
-    cl_float4 sum, rest, mean, deviations;
-};
 
 std::size_t facets_of(const std::vector<Part> &parts) {
     const Part &largest = parts.front();

@@ -48,10 +48,6 @@ void require_room(Context &context, std::uint32_t tile) {
 Attributes describe_geometric(const Brdf &brdf, const Scene &scene, const RenderOptions &o, const GeometricOptions &g) {
     Attributes attributes = describe("geometric", scene);
     attributes.erase("slopemix.g"); // there is no formula for masking
-    if (scene.light == Light::Uniform) {
-        attributes.erase("slopemix.light_phi");
-        attributes["slopemix.light"] = "uniform";
-    }
     attributes["slopemix.brdf"] = brdf.name();
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
     attributes["slopemix.spp"] = std::to_string(o.spp);

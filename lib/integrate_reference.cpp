@@ -8,6 +8,9 @@
 #include "direction_pairs.h"
 #include "error.h"
 #include "facet_integral.h"
+#include "integrate_uniform.h"
+#include "reference_attributes.h"
+#include "sample_to_target.h"
 #include "table_slice.h"
 #include "table_whole.h"
 
@@ -15,39 +18,18 @@ namespace smx {
 
 namespace {
 
-// One try with a number of samples: seconds on the device, and the estimate's error.
-struct Attempt {
+struct PlannedAttempt {
     double kernel_seconds, standard_error;
 };
 
-// Samples for the next try, from the error of the last one. Scrambled Sobol points were measured to converge as their
-// number to the -0.75 on these integrands; a tenth more, so that chance does not ask for another round; a power of two,
-// as Sobol's points like it.
-std::uint32_t next_spp(std::uint32_t spp, double error, double target) {
-    const double wanted = spp * 1.1 * std::pow(error / target, 1.0 / 0.75);
-    std::uint32_t next = 2 * spp;
-    while (next < wanted && next < max_spp) next *= 2;
-    return next;
-}
-
-// Tries until the target is reached, or once without one. `lit` pairs are evaluated at every sample. The report's times
-// are those of the kernels.
+// Tries with the plans that the options' sampler has.
 RenderReport integrate_to_target(const RenderOptions &options, IntegralTask &task, std::uint64_t lit,
-                                 const std::function<Attempt(std::uint32_t spp)> &attempt) {
-    constexpr std::uint32_t first_try = 64;
-    const bool to_target = options.target_error > 0.0;
-    RenderReport report;
-    for (std::uint32_t spp = to_target ? first_try : options.spp;;) {
+                                 const std::function<PlannedAttempt(std::uint32_t spp)> &attempt) {
+    return sample_to_target(options, lit, [&](std::uint32_t spp) -> Attempt {
         task.plan = sampling_plan(task.displacement, options.sampler, spp);
-        const Attempt tried = attempt(spp);
-        report.spp = task.plan.samples();
-        report.standard_error = task.plan.scrambles > 1 ? tried.standard_error : -1.0;
-        report.kernel_seconds += tried.kernel_seconds;
-        report.evaluations += lit * report.spp;
-        if (std::isnan(report.standard_error)) fail(Fault::Internal, "the reference's standard error is no number");
-        if (!to_target || report.standard_error <= options.target_error || spp >= options.most_spp) return report;
-        spp = std::min(next_spp(spp, report.standard_error, options.target_error), options.most_spp);
-    }
+        const PlannedAttempt tried = attempt(spp);
+        return {task.plan.samples(), tried.kernel_seconds, task.plan.scrambles > 1 ? tried.standard_error : -1.0};
+    });
 }
 
 bool draws_about_wh(const Displacement &displacement, const RenderOptions &options) {
@@ -68,18 +50,6 @@ IntegralTask task_of(const Displacement &displacement, Effects on, const RenderO
     task.grade = options.grade;
     task.tiling = options.tiling;
     return task;
-}
-
-Attributes describe_reference(const Brdf &brdf, const Scene &scene, const RenderOptions &options, std::uint32_t spp) {
-    Attributes attributes = describe("reference", scene);
-    attributes["slopemix.brdf"] = brdf.name();
-    attributes["slopemix.brdf_sha256"] = brdf.sha256();
-    attributes["slopemix.sampler"] = sampler_name(options.sampler);
-    attributes["slopemix.spp"] = std::to_string(spp);
-    attributes["slopemix.grade"] = grade_name(options.grade);
-    attributes["slopemix.seed"] = std::to_string(options.seed);
-    attributes["slopemix.lookup"] = options.lookup == Lookup::Nearest ? "nearest" : "linear";
-    return attributes;
 }
 
 void set_call_times(RenderReport &report, const RenderReport &times) {
@@ -105,8 +75,8 @@ void scatter(const std::vector<float> &rgba, const Tile &tile, std::size_t count
         for (std::size_t c = 0; c < 3; ++c) planes[c * count + tile.first_row + k] = rgba[4 * k + c];
 }
 
-Attempt try_pairs(Context &context, const IntegralTask &task, const RenderOptions &options, std::size_t count,
-                  float *fcos, float *errors) {
+PlannedAttempt try_pairs(Context &context, const IntegralTask &task, const RenderOptions &options, std::size_t count,
+                         float *fcos, float *errors) {
     RowErrors seen(count);
     TileJob job;
     job.tiles = tiles_of(static_cast<std::uint32_t>(count), 1, context.device_count(), options.tiling);
@@ -153,8 +123,8 @@ RenderReport integrate_list(Context &context, const RenderOptions &options, Inte
 
 Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalSource &source, const Scene &scene,
                              const RenderOptions &options) {
+    if (scene.light == Light::Uniform) return integrate_uniform(context, brdf, source, scene, options);
     validate(scene);
-    require_directional(scene);
     validate(options);
     validate(options.grade, context);
     const Effects on = reference_effects_of(options, scene.masking);
@@ -176,20 +146,20 @@ Rendered integrate_reference(Context &context, const Brdf &brdf, const ProposalS
     task.proposal = &proposal;
 
     Attributes attributes;
-    RenderReport report = integrate_to_target(options, task, lit_pixels(scene), [&](std::uint32_t spp) -> Attempt {
-        RowErrors seen(scene.height);
-        attributes = describe_reference(brdf, scene, options, spp);
-        attributes["slopemix.effects"] = effects_text(on);
-        canvas->begin(attributes);
-        const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
-            const auto integral = std::make_shared<FacetIntegral>(device, task, most_rows);
-            return [integral, &seen](const Tile &tile, const TileRows &to, const Step &step) {
-                return integral->integrate(tile, to, seen, step);
+    RenderReport report =
+        integrate_to_target(options, task, lit_pixels(scene), [&](std::uint32_t spp) -> PlannedAttempt {
+            RowErrors seen(scene.height);
+            attributes = describe_reference(brdf, scene, options, on, spp);
+            canvas->begin(attributes);
+            const auto start = [&](Context &device, std::uint32_t most_rows) -> RenderRows {
+                const auto integral = std::make_shared<FacetIntegral>(device, task, most_rows);
+                return [integral, &seen](const Tile &tile, const TileRows &to, const Step &step) {
+                    return integral->integrate(tile, to, seen, step);
+                };
             };
-        };
-        const double seconds = render_tiles(context, scene, options, *canvas, start);
-        return {seconds, seen.relative()};
-    });
+            const double seconds = render_tiles(context, scene, options, *canvas, start);
+            return {seconds, seen.relative()};
+        });
     if (report.standard_error >= 0.0) attributes["slopemix.standard_error"] = number_text(report.standard_error);
     std::optional<Image> image = canvas->finish(attributes);
     set_call_times(report, timer.finish(context, 0.0, 0));

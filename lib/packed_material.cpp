@@ -32,7 +32,7 @@ struct Places {
         : lobes(header_words),
           knots(lobes + lobe_words * m.lobes.size()),
           curves(knots + m.theta_d.size()),
-          end(curves + 3 * m.fresnel.size() * m.theta_d.size()) {}
+          end(curves + 4 * m.fresnel.size() * m.theta_d.size()) {}
 };
 
 } // namespace
@@ -58,8 +58,8 @@ std::vector<float> packed(const Material &m) {
         words.insert(words.end(), {f(m.lobes[k].alpha), f(model[k]), f(surface[k]), f(drawn[k])});
     for (const double angle : m.theta_d) words.push_back(f(angle / (std::numbers::pi / 2)));
     for (const FresnelCurves &curves : m.fresnel)
-        for (const std::vector<double> &curve : curves)
-            for (const double value : curve) words.push_back(f(value));
+        for (std::size_t k = 0; k < m.theta_d.size(); ++k)
+            words.insert(words.end(), {f(curves[0][k]), f(curves[1][k]), f(curves[2][k]), 0.0f});
     return words;
 }
 

@@ -80,7 +80,10 @@ Attributes describe(const std::string &integrator, const Scene &s) {
     Attributes a;
     a["slopemix.version"] = SMX_LIBRARY_VERSION;
     a["slopemix.integrator"] = integrator;
-    a["slopemix.light_phi"] = number_text(s.light_phi);
+    if (s.light == Light::Uniform)
+        a["slopemix.light"] = "uniform";
+    else
+        a["slopemix.light_phi"] = number_text(s.light_phi);
     a["slopemix.alpha_x"] = number_text(s.displacement.alpha_x);
     a["slopemix.alpha_y"] = number_text(s.displacement.alpha_y);
     a["slopemix.rho"] = number_text(s.displacement.rho);

@@ -8,7 +8,7 @@ namespace smx {
 
 namespace {
 
-constexpr std::uint32_t summation_block = 256; // BLOCK in cl/facet_integral.clh
+constexpr std::uint32_t summation_block = 256; // BLOCK in cl/estimate.clh
 constexpr std::uint64_t part_evaluations = 1u << 26;
 constexpr std::uint64_t most_facets = 1u << 18; // in a buffer
 

@@ -21,6 +21,9 @@ Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
     return {Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
 }
 
+// Of samples that come in pairs at the most.
+std::uint32_t scrambles_of(std::uint32_t spp) { return spp % (2 * scramble_count) == 0 ? scramble_count : 1; }
+
 } // namespace
 
 std::uint32_t SamplingPlan::samples_per_scramble() const {
@@ -53,7 +56,7 @@ void validate(const RenderOptions &o) {
 SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {
     const PrincipalAxes x = rough_principal_axes(displacement);
     if (x.var_1 == 0.0 && x.var_2 == 0.0) return {1, {grid(1, 1)}};
-    const std::uint32_t scrambles = sampler != Sampler::Grid && spp % (2 * scramble_count) == 0 ? scramble_count : 1;
+    const std::uint32_t scrambles = sampler == Sampler::Grid ? 1 : scrambles_of(spp);
     const std::uint32_t samples = spp / scrambles;
     if (x.var_2 == 0.0) return {scrambles, {grid(samples, 1)}};
     if (x.var_1 == 0.0) return {scrambles, {grid(1, samples)}};
@@ -66,6 +69,11 @@ SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, st
             break;
     }
     return {1, {grid(square_side(spp), square_side(spp))}};
+}
+
+SamplingPlan uniform_plan(std::uint32_t spp) {
+    const std::uint32_t scrambles = scrambles_of(spp);
+    return {scrambles, {{Drawing::Sobol, spp / scrambles}}};
 }
 
 std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass) {

@@ -31,6 +31,9 @@ void validate(const RenderOptions &options);
 
 SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t spp);
 
+// Under a uniform light, whose samples are facets and directions at once: one pass, whatever X is.
+SamplingPlan uniform_plan(std::uint32_t spp);
+
 // A seed for each pass of each scramble, without relation between them.
 std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass);
 

@@ -65,7 +65,7 @@ void validate(const Scene &s) {
 }
 
 void require_directional(const Scene &s) {
-    require(s.light == Light::Directional, "light is 1 (uniform); this integrator takes only 0 (directional)");
+    require(s.light == Light::Directional, "light is 1 (uniform); here it must be 0 (directional)");
 }
 
 PrincipalAxes principal_axes(const Displacement &x) {

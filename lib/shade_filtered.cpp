@@ -1,11 +1,14 @@
 #include "shade_filtered.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "choose_orders.h"
 #include "device_buffer.h"
 #include "direction_pairs.h"
 #include "filtered_kernels.h"
+#include "filtered_material.h"
+#include "shade_uniform.h"
 #include "widening.h"
 
 namespace smx {
@@ -23,20 +26,6 @@ cl::Buffer fresnel_at_angle(const Context &context, const Material &material, do
         }
         return buffer_from(context, values);
     });
-}
-
-// A material and a scene without what is not simulated.
-struct Simplified {
-    Material material;
-    Scene scene;
-    Effects on;
-};
-
-Simplified simplified(const Material &material, const Scene &scene, const Simulated &simulated) {
-    Simplified s = {simplified(material, simulated.on), scene, simulated.on};
-    s.scene.displacement = simplified(scene.displacement, simulated.on);
-    drop_lobes(s.material, simulated.lobes);
-    return s;
 }
 
 // What one device does with a tile of the sphere. Adds to `unsettled`.
@@ -80,46 +69,18 @@ RenderRows start_sphere(Context &device, const Simplified &simple, const RenderO
     };
 }
 
-// Orders of all lobes, from those of the lobes that are kept.
-std::vector<int> with_dropped(const std::vector<int> &orders, const std::vector<bool> &kept) {
-    std::vector<int> all;
-    auto next = orders.begin();
-    for (const bool is_kept : kept) all.push_back(is_kept ? *next++ : 0);
-    return all;
-}
-
-std::string text_of(const std::vector<int> &orders) {
-    std::string text;
-    for (int order : orders) {
-        if (!text.empty()) text += ',';
-        text += std::to_string(order);
-    }
-    return text;
-}
-
 } // namespace
 
 Rendered shade_filtered(Context &context, const Material &material, const Scene &scene, const RenderOptions &options,
                         const Simulated &simulated) {
+    if (scene.light == Light::Uniform) return shade_uniform(context, material, scene, options, simulated);
     validate(scene);
-    require_directional(scene);
     validate(options.grade, context);
     validate_widening(options);
     const Simplified simple = simplified(material, scene, simulated);
     const auto [orders, choice] = widening_orders(context, simple.material, simple.scene, simple.on, options);
     const std::vector<int> all_orders = with_dropped(orders, simulated.lobes);
-    Attributes attributes = describe("filtered", scene);
-    attributes["slopemix.material"] = material.name;
-    attributes["slopemix.model"] = model_name(material.model);
-    attributes["slopemix.grade"] = grade_name(options.grade);
-    attributes["slopemix.lobes"] = std::to_string(material.lobes.size());
-    attributes["slopemix.widening_order"] =
-        options.widening_order == widening_auto ? "auto" : std::to_string(options.widening_order);
-    attributes["slopemix.widening_orders"] = text_of(all_orders);
-    if (options.widening_order == widening_auto)
-        attributes["slopemix.widening_tolerance"] = number_text(options.widening_tolerance);
-    attributes["slopemix.effects"] = effects_text(simulated.on);
-    attributes["slopemix.lobes_shaded"] = std::to_string(simple.material.lobes.size());
+    const Attributes attributes = describe_filtered(material, scene, options, simulated, all_orders);
     std::atomic<std::uint64_t> unsettled = 0;
     Rendered rendered = render_once(context, scene, options, attributes,
                                     [&, &orders = orders](Context &device, std::uint32_t most_rows) {

@@ -13,13 +13,14 @@ namespace {
 // Writes out[quantity][stride]. wi's own quantities are asked for where its mean plane is not turned away.
 constexpr const char *probe = R"(
 __kernel void probe(__global real *out, int stride, __global const float *wi, __global const float *wo, Displacement x,
-                    __constant Lobe *lobes, int count, __global const float *curves, __constant float *theta_d,
+                    __constant Lobe *lobes, int count, __global const float *values, __global const float *theta_d,
                     int knots) {
     int at = W * (int)get_global_id(0);
     PairsOfDirections d = load_pairs(wi, wo, stride, at);
     realW hx = d.ix + d.ox, hy = d.iy + d.oy, hz = d.iz + d.oz;
     realW angle = difference_angle(d.ix, d.iy, d.iz, d.ox, d.oy, d.oz);
-    KnotPosition knot = knot_position(theta_d, knots, angle);
+    Curves curves = {values, theta_d, knots, 0};
+    KnotPosition knot = knot_position(&curves, angle);
     Evaluation e = evaluation(&x, d.ix, d.iy, d.iz, d.ox, d.oy, d.oz, hx, hy, hz);
     realW p_i = fmax(mean_plane(&x, d.ix, d.iy, d.iz), (realW)0.0f);
     Slanted i = slanted(&x, d.ix, d.iy, p_i);
@@ -32,13 +33,18 @@ __kernel void probe(__global real *out, int stride, __global const float *wi, __
     vstoreW(mixture_lambda(lobes, count, &i), 0, to + 2 * stride);
     vstoreW(mixture_g1(lobes, count, &i), 0, to + 3 * stride);
     vstoreW(angle, 0, to + 4 * stride);
-    for (int c = 0; c < 3; ++c) vstoreW(fresnel_at(curves + c * knots, &knot), 0, to + (5 + c) * stride);
+    LaneColours white = black_lanes();
+    add_coloured_by(&white, &curves, 0, &knot, (realW)1.0f);
+    RgbW fresnel = rgb_of(&white);
+    vstoreW(fresnel.r, 0, to + 5 * stride);
+    vstoreW(fresnel.g, 0, to + 6 * stride);
+    vstoreW(fresnel.b, 0, to + 7 * stride);
 #endif
 #if PER_LOBE == 0
     realW g2 = selectW((realW)0.0f, mixture_g2(lobes, count, &e) * e.o.p, e.visible);
     vstoreW(g2, 0, to + (9 - HEIGHT_CORRELATION) * stride);
 #endif
-    RgbW f = fcos_of_pair(lobes, count, curves, knots, &knot, &e);
+    RgbW f = fcos_of_pair(lobes, count, PER_LOBE, &curves, &knot, &e);
     int shading = 10 + 6 * PER_LOBE + 3 * (1 - HEIGHT_CORRELATION);
     vstoreW(f.r, 0, to + shading * stride);
     vstoreW(f.g, 0, to + (shading + 1) * stride);
@@ -79,8 +85,10 @@ smx::Material material_of(const HardCase &c, smx::Model model) {
 std::vector<float> curves_of(const HardCase &c) {
     std::vector<float> curves;
     for (std::size_t set = 0; set < c.lobes.size(); ++set)
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            for (float f : hard_curve(set, channel)) curves.push_back(f);
+        for (std::size_t knot = 0; knot < hard_curve(set, 0).size(); ++knot) {
+            for (std::size_t channel = 0; channel < 3; ++channel) curves.push_back(hard_curve(set, channel)[knot]);
+            curves.push_back(0.0f);
+        }
     return curves;
 }
 
@@ -91,7 +99,7 @@ const char *quantity_name(std::size_t quantity) { return names[quantity]; }
 smx::Displacement displacement_of(const HardSurface &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_x, x.mean_y}; }
 
 HardProbe::HardProbe(smx::Context &context, smx::Grade grade) : context_(context), grade_(grade) {
-    const std::string source = smx::kernel_source("shade_filtered.cl") + probe;
+    const std::string source = smx::kernel_source("shade_filtered.cl") + smx::kernel_source("pairs.clh") + probe;
     for (int per_lobe : {0, 1})
         for (int separable : {0, 1}) {
             cl::Program program(context.cl(), source);

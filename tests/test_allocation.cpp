@@ -200,5 +200,23 @@ TEST(Allocation, Renders) {
         return smx_material_eval(test::context(), o.material, &scene.displacement, SMX_G2_CORRELATED, nullptr, 1, up,
                                  up, fcos);
     });
+    expect_out_of_memory("smx_evaluator_create, smx_evaluator_sample", 200, [&] {
+        test::Handle<smx_evaluator, smx_evaluator_release> evaluator;
+        const smx_status status = smx_evaluator_create(test::context(), o.material, &scene.displacement,
+                                                       SMX_G2_CORRELATED, nullptr, evaluator.out());
+        if (status != SMX_OK) return status;
+        const float up[] = {0.0f, 0.0f, 1.0f};
+        float drawn[6];
+        const smx_vectors v = SMX_PACKED(up);
+        const smx_vectors_out wi = SMX_PACKED(drawn), fcos = SMX_PACKED(drawn + 3);
+        return smx_evaluator_sample(evaluator, 1, &v, &v, &wi, &fcos, nullptr);
+    });
+    expect_out_of_memory("smx_material_pack", 200, [&] {
+        std::size_t count = 0;
+        const smx_status status = smx_material_pack(o.material, nullptr, &count);
+        if (status != SMX_OK) return status;
+        float words[256];
+        return count <= 256 ? smx_material_pack(o.material, words, &count) : SMX_INTERNAL;
+    });
     EXPECT_EQ(test::relrmse(test::render_filtered(o.material, scene), before), 0.0);
 }

@@ -78,6 +78,14 @@ cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocki
     return next(queue, buffer, blocking, offset, size, to, waits, list, event);
 }
 
+void *clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocking, cl_map_flags flags, size_t offset,
+                         size_t size, cl_uint waits, const cl_event *list, cl_event *event, cl_int *error) {
+    static const auto next = real("clEnqueueMapBuffer", &clEnqueueMapBuffer);
+    if (!is_refused()) return next(queue, buffer, blocking, flags, offset, size, waits, list, event, error);
+    *error = CL_MAP_FAILURE;
+    return nullptr;
+}
+
 cl_int clWaitForEvents(cl_uint count, const cl_event *events) {
     static const auto next = real("clWaitForEvents", &clWaitForEvents);
     const cl_int status = next(count, events);
@@ -152,11 +160,22 @@ Call render_geometry() {
 
 constexpr float up[] = {0.0f, 0.0f, 1.0f};
 
-Call evaluate(smx_material material) {
+// A context that copies the caller's arrays, as for a device with memory of its own.
+smx_context copying_context() {
+    static const test::Context copying = [] {
+        smx_context_options options = SMX_CONTEXT_OPTIONS_INIT;
+        options.copy_arrays = 1;
+        test::Context made;
+        EXPECT_SMX_OK(smx_context_create(&options, made.out()));
+        return made;
+    }();
+    return copying;
+}
+
+Call evaluate(smx_material material, smx_context where = test::context()) {
     return [=] {
         float fcos[3];
-        return smx_material_eval(test::context(), material, &scene.displacement, SMX_G2_CORRELATED, nullptr, 1, up, up,
-                                 fcos);
+        return smx_material_eval(where, material, &scene.displacement, SMX_G2_CORRELATED, nullptr, 1, up, up, fcos);
     };
 }
 
@@ -181,6 +200,7 @@ TEST(DeviceFaults, EveryRefusalIsAStatus) {
     EXPECT_GE(expect_refusals("smx_render_geometric", render_geometric(brdf)), 4);
     EXPECT_GE(expect_refusals("smx_render_geometry", render_geometry()), 3);
     EXPECT_GE(expect_refusals("smx_material_eval", evaluate(material)), 4);
+    EXPECT_GE(expect_refusals("smx_material_eval, copied", evaluate(material, copying_context())), 4);
     EXPECT_GE(expect_refusals("smx_brdf_integrate", integrate(brdf)), 4);
     EXPECT_EQ(test::relrmse(test::render_filtered(material, scene), before), 0.0);
 }

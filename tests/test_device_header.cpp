@@ -310,7 +310,11 @@ TEST(DeviceHeader, BufferIsAsDocumented) {
     EXPECT_NEAR(drawn, 1.0, 1e-6);
     for (std::size_t k = 0; k < curves.theta_d.size(); ++k)
         EXPECT_FLOAT_EQ(at(8)[k], static_cast<float>(curves.theta_d[k] / (oracle::pi / 2)));
-    for (std::size_t k = 0; k < curves.fresnel.size(); ++k) EXPECT_EQ(at(9)[k], static_cast<float>(curves.fresnel[k]));
+    const std::size_t knots = curves.theta_d.size();
+    for (std::size_t k = 0; k < curves.fresnel.size(); ++k) {
+        const std::size_t set = k / (3 * knots), channel = k / knots % 3, knot = k % knots;
+        EXPECT_EQ(at(9)[4 * (set * knots + knot) + channel], static_cast<float>(curves.fresnel[k]));
+    }
 
     // Only a buffer of the right size is written.
     std::vector<float> small(w.size() - 1, -1.0f);

@@ -203,3 +203,38 @@ TEST(Effects, HaveNames) {
     EXPECT_STREQ(smx_effect_name(SMX_EFFECT_INTERREFLECTION), "interreflection");
     EXPECT_EQ(smx_effect_name(static_cast<smx_effect>(3)), nullptr);
 }
+
+// What is left without any effect is as exact as a float is, up to grazing directions: the slope's square stands in an
+// exponent of up to 80.
+TEST(Effects, NoneIsExactUpToGrazing) {
+    if (!test::has_double()) GTEST_SKIP() << "no double on the device";
+    constexpr double exponent_tolerance = 5e-5, lost = 1e-30; // of a density below exp(-69)
+    test::Random random(11);
+    std::vector<float> wi, wo;
+    for (int pair = 0; pair < 50000; ++pair)
+        for (std::vector<float> *k : {&wi, &wo}) {
+            const double z = random.log_uniform(1e-7, 1.0), phi = random.uniform(0.0, 2.0 * oracle::pi);
+            const double r = std::sqrt(1.0 - z * z);
+            for (const double c : {r * std::cos(phi), r * std::sin(phi), z}) k->push_back(static_cast<float>(c));
+        }
+    for (const double alpha : {1e-2, 0.2, 10.0, 1e4}) {
+        const test::Material material = test::make_material({{1.0, alpha}});
+        smx_render_options options = SMX_RENDER_OPTIONS_INIT;
+        options.effects = SMX_EFFECTS_NONE;
+        const smx_displacement x{0.1, 0.1, 0.0, 0.0, 0.0};
+        std::vector<float> precise(wi.size()), exact(wi.size());
+        ASSERT_SMX_OK(smx_material_eval(test::context(), material, &x, SMX_G2_CORRELATED, &options, wi.size() / 3,
+                                        wi.data(), wo.data(), precise.data()));
+        options.grade = SMX_GRADE_DOUBLE;
+        ASSERT_SMX_OK(smx_material_eval(test::context(), material, &x, SMX_G2_CORRELATED, &options, wi.size() / 3,
+                                        wi.data(), wo.data(), exact.data()));
+        double worst = 0.0, seen = 0.0;
+        for (std::size_t k = 0; k < exact.size(); ++k) {
+            if (!(exact[k] > lost)) continue;
+            worst = std::max(worst, std::abs(double{precise[k]} - exact[k]) / exact[k]);
+            ++seen;
+        }
+        EXPECT_LT(worst, exponent_tolerance) << "alpha " << alpha;
+        EXPECT_GT(seen, 1000.0) << "alpha " << alpha;
+    }
+}

@@ -341,7 +341,7 @@ TEST(Drawn, WeightsAreBounded) {
                     }
 }
 
-// Orders above 0 draw in closed form and evaluate by nodes: no bound is known, and what docs/widening.md states is
+// Orders above 0 draw in closed form and evaluate by nodes: no bound is known, and what docs/packed-material.md states is
 // measured here.
 TEST(Drawn, WeightsOfOrdersAreMeasured) {
     const std::vector<float> u = independent_numbers(8);
@@ -359,7 +359,7 @@ TEST(Drawn, WeightsOfOrdersAreMeasured) {
                         model, alpha, z, order, here);
                     most = std::max(most, here);
                 }
-    EXPECT_LT(most, 100.0);
+    EXPECT_LT(most, 10.0);
     EXPECT_GT(most, 0.1);
 }
 

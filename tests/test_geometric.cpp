@@ -1,11 +1,13 @@
 // The geometric reference: against the statistical one where they ask the same, in a white furnace, and its switches.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <functional>
 
 #include "oracle_reference.h"
 #include "oracle_sphere.h"
 #include "support.h"
+#include "tile_facets.h"
 
 namespace {
 
@@ -67,6 +69,17 @@ std::vector<double> unmasked_reference(smx_brdf brdf, const smx_scene &scene) {
     return red;
 }
 
+// The scene with the slopes that the tiles of these realisations have, which is what its pixels are to tell of.
+smx_scene as_measured(const Settings &s) {
+    const smx_displacement &x = s.scene.displacement;
+    const smx::Displacement m = test::measured({x.alpha_x, x.alpha_y, x.rho, x.mean_slope_x, x.mean_slope_y},
+                                               static_cast<std::uint32_t>(std::countr_zero(s.geometric.tile)),
+                                               s.options.seed, s.geometric.realisations);
+    smx_scene scene = s.scene;
+    scene.displacement = {m.alpha_x, m.alpha_y, m.rho, m.mean_slope_x, m.mean_slope_y};
+    return scene;
+}
+
 // Share of the lit pixels whose difference is beyond `limit` standard errors.
 double share_beyond(const Geometric &g, const std::vector<double> &wanted, double limit) {
     double beyond = 0.0, count = 0.0;
@@ -82,10 +95,13 @@ double share_beyond(const Geometric &g, const std::vector<double> &wanted, doubl
 // Of Student's t with 31 degrees of freedom: 5 % lie beyond.
 constexpr uint32_t realisations = 32;
 constexpr double t_5_percent = 2.0395;
-// Some 190 pixels see the same tiles, and are as good as 50 that do not: 5 % +- 3 %, and three of these. (Over ten
-// seeds the shares were 3 to 11 %, their mean 5 to 8 %: where little is lit, few bright samples make a mean of 32
-// lean.)
-constexpr double most_beyond = 0.14;
+// Some 190 pixels see the same tiles, and are as good as 50 that do not: three seeds tell 5 % +- 1.8 %, and this is
+// three of these. (Over ten seeds of 256 samples the means were 5.6, 7.5 and 5.3 % for the three surfaces: on the
+// second, where little is lit, few bright samples make a mean of 32 lean.)
+constexpr uint64_t seeds = 3;
+constexpr double most_beyond = 0.105;
+// Of a surface that is a twentieth too rough, 79 to 84 % were.
+constexpr double least_beyond = 0.6;
 
 } // namespace
 
@@ -102,17 +118,20 @@ TEST(Geometric, WithoutMaskingAndShadowingIsTheStatisticalReferenceWithoutThem) 
     const test::Brdf brdf = test::make_brdf(test::beckmann_table({{1.0, 0.4}}, oracle::Masking::correlated));
     for (const smx_displacement &x :
          {smx_displacement{0.25, 0.25, 0.0, 0.0, 0.0}, {0.4, 0.1, 0.5, 0.0, 0.0}, {0.0, 0.3, 0.0, 0.1, 0.0}}) {
-        Settings s(16, 0.0, realisations, 256);
+        Settings s(16, 0.0, realisations, 512);
         s.scene.displacement = x;
         s.options.effects = unhidden;
-        const Geometric g = render(brdf, s);
-        SCOPED_TRACE(::testing::Message() << "X " << x.alpha_x << " " << x.alpha_y);
-        EXPECT_LT(share_beyond(g, unmasked_reference(brdf, s.scene), t_5_percent), most_beyond);
-
-        // And the test sees a surface that is a fifth too rough.
-        s.scene.displacement.alpha_x *= 1.2;
-        s.scene.displacement.alpha_y *= 1.2;
-        EXPECT_GT(share_beyond(g, unmasked_reference(brdf, s.scene), t_5_percent), 2.0 * most_beyond);
+        double beyond = 0.0, beyond_too_rough = 0.0;
+        for (s.options.seed = 0; s.options.seed < seeds; ++s.options.seed) {
+            const Geometric g = render(brdf, s);
+            smx_scene scene = as_measured(s);
+            beyond += share_beyond(g, unmasked_reference(brdf, scene), t_5_percent) / seeds;
+            scene.displacement.alpha_x *= 1.05;
+            scene.displacement.alpha_y *= 1.05;
+            beyond_too_rough += share_beyond(g, unmasked_reference(brdf, scene), t_5_percent) / seeds;
+        }
+        EXPECT_LT(beyond, most_beyond) << "X " << x.alpha_x << " " << x.alpha_y;
+        EXPECT_GT(beyond_too_rough, least_beyond) << "X " << x.alpha_x << " " << x.alpha_y;
     }
 }
 
@@ -260,18 +279,9 @@ TEST(Geometric, BadArgumentsAreRefused) {
     expect_refused("light is 3", [](Settings &s) { s.scene.light = beyond<smx_light>(); });
     expect_refused("geometric->size", [](Settings &s) { s.geometric.size = 1; });
     expect_refused("lookup is 3", [](Settings &s) { s.options.lookup = beyond<smx_lookup>(); });
-}
-
-TEST(Geometric, UniformLightIsOnlyTheirs) {
-    const test::Brdf brdf = open("builtin:conductor");
-    const test::Material material = test::make_material({{1.0, 0.2}});
-    Settings s(8, 0.5, 4, 4);
-    s.scene.light = SMX_LIGHT_UNIFORM;
+    const Settings s(8, 0.5, 4, 4);
     smx_image image = nullptr;
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "light is 1 (uniform)",
-                     smx_render_reference(test::context(), brdf, &s.scene, nullptr, &image, nullptr));
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "light is 1 (uniform)",
-                     smx_render_filtered(test::context(), material, &s.scene, nullptr, &image, nullptr));
-    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "brdf is null",
-                     smx_render_geometric(test::context(), nullptr, &s.scene, nullptr, &s.geometric, &image, nullptr));
+    EXPECT_SMX_FAILS(
+        SMX_INVALID_ARGUMENT, "brdf is null",
+        smx_render_geometric(test::context(), nullptr, &s.scene, &s.options, &s.geometric, &image, nullptr));
 }

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "cast_rays.h"
 #include "oracle_reference.h"
 #include "random.h"
 #include "support.h"
+#include "tile_facets.h"
 
 namespace {
 
@@ -42,21 +42,6 @@ Estimate estimate(const std::vector<double> &values) {
     return {sum / n, std::sqrt(squares / (n * (n - 1.0)))};
 }
 
-// The slopes of all facets of a field on a surface.
-void visit_facets(const smx::HeightField &f, const smx::Displacement &x,
-                  const std::function<void(double sx, double sy)> &visit) {
-    const smx::TileFrame a = smx::tile_frame(f, x);
-    const std::size_t side = f.side();
-    const auto height = [&](std::size_t i, std::size_t j) { return double{f.heights[j % side * side + i % side]}; };
-    for (std::size_t j = 0; j < side; ++j)
-        for (std::size_t i = 0; i < side; ++i)
-            for (std::size_t upper : {0u, 1u}) {
-                const double gx = height(i + 1, j + upper) - height(i, j + upper),
-                             gy = height(i + upper, j + 1) - height(i + upper, j);
-                visit(a.a_xx * gx + a.a_yx * gy + a.mean_x, a.a_xy * gx + a.a_yy * gy + a.mean_y);
-            }
-}
-
 struct Moments {
     Estimate mean_x, mean_y, xx, xy, yy, kurtosis_x;
 };
@@ -67,7 +52,7 @@ Moments moments(const smx::Displacement &x) {
     const double ax = x.alpha_x > 0.0 ? x.alpha_x : 1.0, ay = x.alpha_y > 0.0 ? x.alpha_y : 1.0;
     for (const smx::HeightField &f : ensemble()) {
         double mx = 0, my = 0, xx = 0, xy = 0, yy = 0, x4 = 0, n = 0;
-        visit_facets(f, x, [&](double slope_x, double slope_y) {
+        test::visit_facets(f, x, [&](double slope_x, double slope_y) {
             const double u = (slope_x - x.mean_slope_x) / ax, v = (slope_y - x.mean_slope_y) / ay;
             mx += u, my += v, xx += 2 * u * u, xy += 2 * u * v, yy += 2 * v * v, x4 += 4 * u * u * u * u, ++n;
         });
@@ -116,8 +101,9 @@ TEST(HeightField, SlopesOfAFacetAreCorrelatedAsTheSpectrumSays) {
 
 // Slopes that are lines stay lines: nothing along x where X has no roughness there.
 TEST(HeightField, NoRoughnessIsNone) {
-    visit_facets(ensemble()[0], {0.0, 0.5, 0.0, 0.25, 0.0}, [](double sx, double) { ASSERT_NEAR(sx, 0.25, 1e-6); });
-    visit_facets(ensemble()[0], {0.0, 0.0, 0.0, 0.25, 0.5}, [](double sx, double sy) {
+    test::visit_facets(ensemble()[0], {0.0, 0.5, 0.0, 0.25, 0.0},
+                       [](double sx, double) { ASSERT_NEAR(sx, 0.25, 1e-6); });
+    test::visit_facets(ensemble()[0], {0.0, 0.0, 0.0, 0.25, 0.5}, [](double sx, double sy) {
         ASSERT_EQ(sx, 0.25);
         ASSERT_EQ(sy, 0.5);
     });

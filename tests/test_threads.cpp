@@ -17,8 +17,13 @@ const smx_scene scene = test::make_scene(24, 24, test::radians(60.0), {0.25, 0.2
 struct Shared {
     test::Brdf brdf;
     test::Material material = test::make_material({{0.5, 0.2}, {0.5, 0.6}});
+    test::Handle<smx_evaluator, smx_evaluator_release> evaluator; // on test::context()
 
-    Shared() { EXPECT_SMX_OK(smx_brdf_open("builtin:conductor", brdf.out())); }
+    Shared() {
+        EXPECT_SMX_OK(smx_brdf_open("builtin:conductor", brdf.out()));
+        EXPECT_SMX_OK(smx_evaluator_create(test::context(), material, &scene.displacement, SMX_G2_CORRELATED, nullptr,
+                                           evaluator.out()));
+    }
 };
 
 using Bits = std::vector<float>;
@@ -73,6 +78,16 @@ smx_status evaluated(const Shared &s, smx_context context, Bits &bits) {
                              wo.data(), bits.data());
 }
 
+// By one evaluator for all threads, whatever their context.
+smx_status drawn(const Shared &s, Bits &bits) {
+    const std::vector<float> u{0.1f, 0.5f, 0.7f, 0.9f, 0.2f, 0.4f}, wo{0.0f, 0.0f, 1.0f, 0.0f, 0.6f, 0.8f};
+    bits.assign(14, -1.0f);
+    const smx_vectors numbers = SMX_PACKED(u.data()), view = SMX_PACKED(wo.data());
+    const smx_vectors_out wi = SMX_PACKED(bits.data()), fcos = SMX_PACKED(bits.data() + 6);
+    const smx_scalars_out pdf = {bits.data() + 12, 1};
+    return smx_evaluator_sample(s.evaluator, 2, &numbers, &view, &wi, &fcos, &pdf);
+}
+
 smx_status geometry(smx_context context, Bits &bits) {
     test::Image image;
     const smx_status status = smx_render_geometry(context, &scene, nullptr, image.out(), nullptr);
@@ -94,6 +109,7 @@ std::vector<Work> all_work(const Shared &s) {
             [&](smx_context c, Bits &b) { return reference(s, c, b); },
             [&](smx_context c, Bits &b) { return geometric(s, c, b); },
             [&](smx_context c, Bits &b) { return evaluated(s, c, b); },
+            [&](smx_context, Bits &b) { return drawn(s, b); },
             [&](smx_context c, Bits &b) { return geometry(c, b); },
             [&](smx_context c, Bits &b) { return cancelled(s, c, b); }};
 }

@@ -51,6 +51,8 @@ const std::vector<Threshold> &thresholds() {
         {"g2_over_po(x, (realW)1.0f, (realW)1e-3f, (realW)0.1f) * 1e34f", 1e-34},
         {"facet_slope(x, (realW)1e-9f)", 1.0},
         {"facet_slope((realW)1.0f, x)", 0x1p-126},
+        {"facet_slope2(x, (realW)0.0f, (realW)1e-9f)", 1.41421356},
+        {"facet_slope2((realW)1e-36f, (realW)0.0f, x)", 0x1p-126},
         {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-5, true},
         {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-4, true},
         {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-5, true},

@@ -120,8 +120,8 @@ SMX_API smx_status smx_evaluator_pdf(smx_evaluator evaluator, size_t count, cons
                                      const smx_vectors *wo, const smx_scalars_out *pdf);
 
 /** Bound of f cos / pdf over all that smx_evaluator_sample can draw, with masking and in closed form: the largest value
- * of the shared model's curves; of the per-lobe model, the largest F_k / share_k. For orders above 0, docs/widening.md
- * has what was measured.
+ * of the shared model's curves; of the per-lobe model, the largest F_k / share_k. For orders above 0,
+ * docs/packed-material.md has what was measured.
  *
  * @param evaluator  the evaluator
  * @param bound      > 0, or 0 of a black material

@@ -13,7 +13,9 @@ extern "C" {
 #endif
 
 /* Where the reference's facets come from. Where one alpha is 0, every sampler spreads all samples along the other axis;
- * where both are, one sample is exact. */
+ * where both are, one sample is exact. Under a uniform light a sample is a facet of X and a direction to the light: mis
+ * draws directions from the table's mixture about the facet, sobol from a wide lobe and the cosine, whatever the table
+ * is; the grid is INVALID_ARGUMENT. */
 typedef enum smx_sampler {
     SMX_SAMPLER_GRID = 0,  /* n x n jittered strata of X's slopes; no estimate of the error */
     SMX_SAMPLER_SOBOL = 1, /* X's slopes from Owen-scrambled Sobol points */
@@ -55,7 +57,8 @@ typedef enum smx_effect {
 
 typedef struct smx_render_options {
     size_t size;
-    smx_sampler sampler; /* these seven: reference only */
+    smx_sampler sampler; /* these seven: reference only; but under a uniform light a filtered image has spp, seed,
+                            target_error and errors too */
     uint32_t spp;        /* samples per pixel, 1..2^24; a square for the grid, even for mis */
     uint64_t seed;
     smx_lookup lookup;
@@ -79,7 +82,8 @@ typedef struct smx_render_options {
                                   bounces, interreflection. A set with another is INVALID_ARGUMENT; so is
                                   height-correlation with SMX_G2_SEPARABLE. Auto leaves out of filtered images what
                                   smx_material_effects says, and of the geometric reference interreflection alone;
-                                  for the statistical one, and where there is no image (smx_material_eval), it is all
+                                  for the statistical one, under a uniform light, and where there is no image
+                                  (smx_material_eval), it is all
                                 */
     double effect_tolerance;   /* of SMX_EFFECTS_AUTO: relRMSE of the image without all that is left out, 0 <= it < 1 */
 } smx_render_options;
@@ -95,12 +99,13 @@ typedef struct smx_render_report {
     double kernel_seconds; /* on the busiest device, from OpenCL's events */
     double build_seconds;  /* compiling kernels that were not built yet, on the device that took longest */
     uint64_t evaluations;  /* of the shading or the integrand: pixels (lit ones in a reference) times samples */
-    uint32_t spp;          /* samples per pixel of a reference; 0 for the others */
-    double standard_error; /* of a reference, from independent scrambles: root mean square over the image's. Negative
+    uint32_t spp;          /* samples per pixel of a reference, or under a uniform light; 0 for the others */
+    double standard_error; /* of these, from independent scrambles: root mean square over the image's. Negative
                             * where there is no estimate: the grid, or a number of samples that 16 does not divide */
     uint8_t widening_orders[SMX_MAX_LOBES]; /* of a filtered image: of each lobe, in ascending alpha */
     double unsettled; /* of a filtered image: share of the lit pixels where a lobe's nodes were placed by Newton steps
-                         whose last still promised more than 0.01 of the integrand's logarithm */
+                         whose last still promised more than 0.01 of the integrand's logarithm; under a uniform
+                         light, of the samples */
     uint32_t effects; /* simulated: a set. 0 of smx_render_geometry */
     uint32_t lobes;   /* of a filtered image: lobes that were shaded, all but those that auto left out; else 0 */
     double interreflection; /* of smx_render_geometric with SMX_EFFECTS_AUTO and bounces: relRMSE of the image without
@@ -110,9 +115,11 @@ typedef struct smx_render_report {
 #define SMX_RENDER_REPORT_INIT \
     { sizeof(smx_render_report), 0.0, 0.0, 0.0, 0, 0, 0.0, {0}, 0.0, 0, 0, 0.0 }
 
-/* The mixture widened by X, in closed form or as options->widening_order says, one evaluation per pixel. `report` may
- * be NULL, and `image` must be where options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD,
- * DEVICE_ERROR, OUT_OF_MEMORY, CANCELLED, CANNOT_WRITE. */
+/* The mixture widened by X, in closed form or as options->widening_order says, one evaluation per pixel; under a
+ * uniform light options->spp of them, which takes no SMX_WIDENING_AUTO: the integral of f cos over all light, from
+ * directions that the widened lobes reflect, with standard errors as a reference's. `report` may be NULL, and `image`
+ * must be where options->exr_path takes the image. Statuses: INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR,
+ * OUT_OF_MEMORY, CANCELLED, CANNOT_WRITE. */
 SMX_API smx_status smx_render_filtered(smx_context context, smx_material material, const smx_scene *scene,
                                        const smx_render_options *options, smx_image *image, smx_render_report *report);
 

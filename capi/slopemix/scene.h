@@ -27,7 +27,8 @@ typedef enum smx_masking {
 
 typedef enum smx_light {
     SMX_LIGHT_DIRECTIONAL = 0, /* of unit perpendicular irradiance */
-    SMX_LIGHT_UNIFORM = 1      /* radiance 1 from every direction above: a furnace; smx_render_geometric only */
+    SMX_LIGHT_UNIFORM = 1      /* radiance 1 from every direction above: a furnace. Of smx_render_filtered,
+                                  reference and geometric, by samples of every pixel */
 } smx_light;
 
 /* A unit sphere that fills the smaller side of the image, orthographic camera on +y looking along -y, right = +x,

@@ -46,7 +46,7 @@ void print_text(const std::vector<BenchRow> &rows, const std::string &device) {
 }
 
 void run(const BenchFlags &flags) {
-    Progress progress(shading_jobs + widening_jobs + effects_jobs + reference_jobs + geometric_jobs);
+    Progress progress(shading_jobs + widening_jobs + effects_jobs + evaluator_jobs + reference_jobs + geometric_jobs);
     BenchJob job{open_context(flags.render), flags.quick ? 1 : 7, progress, {}};
     const smx_device_info device = info_of(job.context);
     if (device.devices > 1)
@@ -54,6 +54,7 @@ void run(const BenchFlags &flags) {
     bench_shading(job);
     bench_widening(job);
     bench_effects(job);
+    bench_evaluator(job);
     bench_reference(job);
     bench_geometric(job);
     progress.clear();
@@ -80,8 +81,10 @@ void add_bench(CLI::App &app) {
         "Nanoseconds per evaluation, or per sample of the reference, on the whole device: medians of runs in which a\n"
         "case and its baselines take turns. Baselines: scalar-one-core, a loop of floats and libm; builtin-kernel and\n"
         "plain-kernel, one evaluation or sample per work-item with built-in functions; closed-form, the same shading\n"
-        "without the quadrature; all-effects, the same with what `effects.*` leaves out; statistical, a sample of the "
-        "statistical reference, for a path of the geometric one.");
+        "without the quadrature; all-effects, the same with what `effects.*` leaves out; kernel-alone, an\n"
+        "evaluator's kernel on buffers, for the whole call on the host's arrays; statistical, a sample of the "
+        "statistical\n"
+        "reference, for a path of the geometric one.");
     command->callback([flags] { run(*flags); });
 }
 

@@ -35,12 +35,13 @@ inline constexpr int widening_orders[] = {1, 2, 3, 5, 8};
 
 // In progress's units.
 inline constexpr double shading_jobs = 10.0, widening_jobs = 2.0, reference_jobs = 5.0, geometric_jobs = 1.0,
-                        effects_jobs = 2.0;
+                        effects_jobs = 2.0, evaluator_jobs = 2.0;
 
 // Each adds its rows; throws CommandError where a baseline computes something else than the library.
 void bench_shading(BenchJob &job);
 void bench_widening(BenchJob &job);
 void bench_effects(BenchJob &job);
+void bench_evaluator(BenchJob &job);
 void bench_reference(BenchJob &job);
 void bench_geometric(BenchJob &job);
 

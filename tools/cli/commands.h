@@ -2,11 +2,16 @@
 // CLI::ParseError for wrong usage (exit status 2) and any other exception for a failure (exit status 1).
 #pragma once
 
+#include <memory>
+
 namespace CLI {
 class App;
 }
 
 namespace slopemix::cli {
+
+// All of them.
+std::unique_ptr<CLI::App> make_app();
 
 void add_info(CLI::App &app);
 void add_synth(CLI::App &app);

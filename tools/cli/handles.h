@@ -37,6 +37,7 @@ using Context = std::unique_ptr<smx_context_s, Release<smx_context_release>>;
 using Brdf = std::unique_ptr<smx_brdf_s, Release<smx_brdf_release>>;
 using Density = std::unique_ptr<smx_density_s, Release<smx_density_release>>;
 using Material = std::unique_ptr<smx_material_s, Release<smx_material_release>>;
+using Evaluator = std::unique_ptr<smx_evaluator_s, Release<smx_evaluator_release>>;
 using Image = std::unique_ptr<smx_image_s, Release<smx_image_release>>;
 
 // Calls a function of the API whose last argument receives a new handle.

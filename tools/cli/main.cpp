@@ -1,4 +1,4 @@
-// slopemix: the command line. Registers the commands and turns what they throw into messages and exit statuses:
+// slopemix: the command line. Runs a command and turns what it throws into messages and exit statuses:
 // 0 done, 1 failed, 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -32,25 +32,12 @@ int report_parse_result(const CLI::App &app, const CLI::ParseError &result) {
 int run(int argc, char **argv) {
     using namespace slopemix::cli;
 
-    CLI::App app("How a measured material looks on a surface that is rough below the pixel.", "slopemix");
-    app.set_version_flag("--version", std::string("slopemix ") + smx_version());
-    app.require_subcommand(1);
-    add_info(app);
-    add_synth(app);
-    add_fit(app);
-    add_render(app);
-    add_sheet(app);
-    add_budget(app);
-    add_tradeoff(app);
-    add_effects(app);
-    add_compare(app);
-    add_bench(app);
-
+    const std::unique_ptr<CLI::App> app = make_app();
     cancel_on_interrupt();
     try {
-        app.parse(argc, argv);
+        app->parse(argc, argv);
     } catch (const CLI::ParseError &result) {
-        return report_parse_result(app, result);
+        return report_parse_result(*app, result);
     }
     if (!std::cout.flush()) throw CommandError("cannot write to standard output");
     return 0;

@@ -20,15 +20,25 @@ namespace slopemix::cli {
 
 namespace {
 
+// What takes one direction of light takes no uniform one.
+void require_legal_uniform(const RenderJob &job) {
+    if (job.choose.is_asked_for())
+        throw CLI::ValidationError("--light", "a choice by error or time takes no uniform light; use --integrator");
+    if (job.is_filtered() && job.flags.has_auto_order())
+        throw CLI::ValidationError("--widening-order",
+                                   "auto takes no uniform light; use 0.." + std::to_string(SMX_WIDENING_MAX_ORDER));
+    if (job.is_reference() && job.flags.sampler == SMX_SAMPLER_GRID)
+        throw CLI::ValidationError("--sampler", "the grid takes no uniform light; use sobol or mis");
+}
+
 void require_legal_usage(const RenderJob &job) {
     if (std::filesystem::path(job.out).extension() != ".exr")
         throw CLI::ValidationError("--out", "'" + job.out + "' does not end in .exr");
     if (!job.choose.is_asked_for() && !job.is_filtered() && is_material_file(job.input))
         throw CLI::ValidationError("INPUT",
                                    "the reference needs a measured table, and '" + job.input + "' is a material file");
-    if (job.scene.uniform_light && !job.is_geometric())
-        throw CLI::ValidationError("--light", "uniform light needs --integrator geometric");
     if (job.is_geometric()) return require_legal_realisations(job.geometric, job.flags.spp, job.errors);
+    if (job.scene.uniform_light) require_legal_uniform(job);
     require_legal_sampling(job.flags);
     if (job.errors) require_estimate(job.flags);
 }
@@ -66,8 +76,10 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
         return;
     }
     note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance", "--effect-tolerance"});
-    note(!job.is_reference(), {"--target-error", "--sampler"});
-    note(job.is_filtered(), {"--spp", "--seed", "--lookup", "--errors"});
+    note(!job.is_reference(), {"--sampler"});
+    note(job.is_geometric() || !job.is_sampled(), {"--target-error"});
+    note(!job.is_sampled(), {"--spp", "--seed", "--errors"});
+    note(job.is_filtered(), {"--lookup"});
     note(job.is_geometric(), {"--g", "--grade"});
     note(!job.is_geometric(), {"--bounces", "--tile", "--realisations"});
     if (job.is_filtered()) note_tolerance_without_effect(command, job.flags.has_auto_order());
@@ -142,6 +154,7 @@ Rendered render_filtered(const Source &source, const smx_scene &view, const smx_
                          info.lobes,
                          device.name,
                          device.devices};
+    if (view.light == SMX_LIGHT_UNIFORM) return rendered; // nothing was judged
     rendered.effects = SMX_EFFECT_REPORT_INIT;
     check(smx_material_effects(source.material.get(), &view, &options, &*rendered.effects));
     return rendered;
@@ -173,7 +186,7 @@ Rendered render(RenderJob &job, const char *exr_path) {
 
     const smx_scene view = view_of(job);
     smx_render_options options = render_options(job.flags);
-    options.errors = job.errors;
+    options.errors = job.errors && job.is_sampled();
     options.exr_path = exr_path;
     progress.attach(options);
     Rendered rendered =
@@ -243,9 +256,12 @@ void add_render(CLI::App &app) {
     command->footer(
         "The flags of the reference (--spp, --target-error, --sampler, --seed, --lookup, --errors) have no effect on\n"
         "filtered images, nor those of the fit (--lobes, --model) on the references. The geometric one takes --spp\n"
-        "(default 4096), --seed, --lookup and --errors too. A material file must hold what "
-        "the\n"
-        "latter two ask for. Images of more than 2048 x 2048 pixels are written as they come, without being held in\n"
+        "(default 4096), --seed, --lookup and --errors too. Under a uniform light filtered images are sampled as "
+        "well:\n"
+        "they take --spp (default 4096, also of the reference), --target-error, --seed and --errors; auto effects are\n"
+        "all, and --widening-order auto, --sampler grid, --max-error and --max-seconds are refused. A material file\n"
+        "must hold what --lobes and --model ask for. Images of more than 2048 x 2048 pixels are written as they come, "
+        "without being held in\n"
         "memory, unless --png asks for them.");
     command->callback([command, job] {
         job->lobes_given = command->count("--lobes") > 0;
@@ -255,8 +271,10 @@ void add_render(CLI::App &app) {
         note_flags_without_effect(*command, *job);
         if (job->is_geometric()) {
             job->flags.target_error = 0.0;
-            if (command->count("--spp") == 0) job->flags.spp = geometric_spp;
         }
+        // Of the references under a directional light, samples are far cheaper.
+        if ((job->is_geometric() || job->scene.uniform_light) && command->count("--spp") == 0)
+            job->flags.spp = geometric_spp;
         run(*job);
     });
 }

@@ -33,6 +33,8 @@ struct RenderJob {
     bool is_filtered() const { return integrator == Integrator::filtered; }
     bool is_reference() const { return integrator == Integrator::reference; }
     bool is_geometric() const { return integrator == Integrator::geometric; }
+    // By samples of a pixel: a reference, or anything under a uniform light.
+    bool is_sampled() const { return !is_filtered() || scene.uniform_light; }
     // Too large to be held in memory, and not needed there.
     bool is_streamed() const {
         return !png && std::uint64_t{flags.resolution.width} * flags.resolution.height > 2048u * 2048u;

@@ -21,7 +21,7 @@ double per_sample(const smx_render_report &report) {
 
 // The grid has no estimate of its error, nor has one realisation.
 bool has_error(const RenderJob &job, const smx_render_report &report) {
-    return !job.is_filtered() && report.standard_error >= 0.0;
+    return job.is_sampled() && report.standard_error >= 0.0;
 }
 
 Json configuration(const RenderJob &job, const Rendered &rendered) {
@@ -44,6 +44,7 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["alpha_y"] = job.scene.alpha.second;
     json["rho"] = job.scene.rho;
     json["mean_slope"] = {job.scene.mean_slope.first, job.scene.mean_slope.second};
+    json["light"] = job.scene.uniform_light ? "uniform" : "directional";
     json["light_phi_deg"] = job.scene.uniform_light ? Json() : Json(job.scene.light_degrees);
     json["g"] = job.is_geometric() ? Json() : Json(word_for(job.flags.masking, maskings));
     json["grade"] = job.is_geometric() ? Json() : Json(word_for(job.flags.grade, grades));
@@ -51,10 +52,10 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["realisations"] = job.is_geometric() ? Json(job.geometric.realisations) : Json();
     json["bounces"] = job.is_geometric() ? Json(job.geometric.bounces) : Json();
     json["resolution"] = {job.flags.resolution.width, job.flags.resolution.height};
-    json["spp"] = job.is_filtered() ? Json() : Json(rendered.rendering.report.spp);
+    json["spp"] = job.is_sampled() ? Json(rendered.rendering.report.spp) : Json();
     json["target_error"] = job.flags.target_error > 0.0 ? Json(job.flags.target_error) : Json();
     json["sampler"] = job.is_reference() ? Json(word_for(job.flags.sampler, samplers)) : Json();
-    json["seed"] = job.is_filtered() ? Json() : Json(job.flags.seed);
+    json["seed"] = job.is_sampled() ? Json(job.flags.seed) : Json();
     json["lookup"] = job.is_filtered() ? Json() : Json(word_for(job.flags.lookup, lookups));
     json["device"] = rendered.device;
     json["devices"] = rendered.devices;
@@ -62,10 +63,10 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
 }
 
 std::string integrator_text(const RenderJob &job, const Rendered &rendered) {
-    if (job.is_filtered())
-        return std::string("filtered, ") + word_for(rendered.model, models) +
-               ", lobes: " + std::to_string(rendered.lobes);
     std::string text = word_for(job.integrator, integrators);
+    if (job.is_filtered())
+        text += std::string(", ") + word_for(rendered.model, models) + ", lobes: " + std::to_string(rendered.lobes);
+    if (!job.is_sampled()) return text;
     text += ", samples per pixel: " + std::to_string(rendered.rendering.report.spp);
     if (job.is_geometric())
         text += ", realisations: " + std::to_string(job.geometric.realisations) +

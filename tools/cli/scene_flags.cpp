@@ -35,7 +35,7 @@ void add_light_flag(CLI::App &command, SceneFlags &flags, bool takes_uniform) {
         return flags.uniform_light ? 0.0 : parse_number(text, light_range);
     };
     const std::string azimuth = "Azimuth of the light in degrees: 90 at the camera, 0 to the right, negative behind";
-    const std::string uniform = "; or uniform: radiance 1 from everywhere above (geometric)";
+    const std::string uniform = "; or uniform: radiance 1 from everywhere above";
     add_parsed(command, "--light", flags.light_degrees, parse_light, takes_uniform ? azimuth + uniform : azimuth)
         ->required()
         ->type_name(takes_uniform ? "PHI_DEG|uniform" : "PHI_DEG");
