@@ -1,4 +1,5 @@
-# Fails unless DOCUMENT shows, as it stands, what is between the lines "/* README */" and "/* end of README */" of SOURCE.
+# Fails unless DOCUMENT shows, as it stands, what is between the lines "/* README */" and "/* end of README */" of
+# SOURCE.
 file(READ ${SOURCE} source)
 file(READ ${DOCUMENT} document)
 set(begin "    /* README */\n")

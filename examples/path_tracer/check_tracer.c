@@ -11,7 +11,8 @@ enum { BLOCK = 8, WIDTH = 64, HEIGHT = 40, BLOCKS = WIDTH / BLOCK * HEIGHT / BLO
 /* Sharp lobes are found by the cosine so rarely that its noise could not be told: all is roughened by this. */
 static const float roughened = 0.3f;
 
-/* Of normal deviates, one in 2e-7 is beyond it; there are some hundreds. Blocks are means of 64 pixels. */
+/* Of normal deviates one in five million is beyond it, and there are some hundreds: of blocks of 64 pixels, and
+ * variances of as many times PASSES values. */
 static const double most_deviation = 5.2;
 
 static const char *folder;
