@@ -132,7 +132,8 @@ static void check_metal(void) {
                       traced(&studio, roughened, 1, 1, 512));
     printf("    variance by the cosine over that by lobes: %.1f\n", gain);
     EXPECT(gain > 4.0);
-    check_same("metal, lamps against none", traced(&studio, roughened, 0, 1, 512), traced(&dark, roughened, 0, 1, 512));
+    check_same("metal, lamps against none", traced(&studio, roughened, 0, 1, 1024),
+               traced(&dark, roughened, 0, 1, 1024));
     free_studio(&studio);
     smx_material_release(bright);
 }

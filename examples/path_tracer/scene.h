@@ -11,7 +11,8 @@ typedef struct {
     int material;           /* where its words begin */
 } Sphere;
 
-/* A rectangle that shines from the side of cross(u, v), and casts no shadow. No ray may meet two. */
+/* A rectangle, u and v at right angles, that shines from the side of cross(u, v) and casts no shadow. No ray may meet
+ * two. */
 typedef struct {
     float x, y, z;    /* a corner, */
     float ux, uy, uz; /* and the edges from it */

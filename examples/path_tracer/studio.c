@@ -63,10 +63,12 @@ static void add_spheres(Studio *studio, const int at[STUDIO_MATERIALS]) {
 }
 
 static void add_lamps(Studio *studio) {
-    studio->lamps[0] = (Lamp){-6.0f, -5.0f, 5.0f, 0.0f, 3.0f, 3.0f, 3.5f, -1.0f, 0.0f, 22.0f, 19.0f, 16.0f};
+    studio->lamps[0] = (Lamp){-6.0f, -5.0f, 5.0f, 0.0f, 3.0f, 3.0f, 3.5f, -1.0f, 1.0f, 22.0f, 19.0f, 16.0f};
     studio->lamps[1] = (Lamp){7.5f, 4.0f, 0.5f, -0.8f, -3.0f, 0.0f, 0.0f, 0.0f, 4.0f, 6.0f, 8.0f, 11.0f};
     studio->lamps[2] = (Lamp){-5.0f, 9.0f, 2.0f, 10.0f, 0.0f, 0.0f, 0.0f, -1.0f, 5.0f, 6.0f, 6.0f, 6.0f};
     studio->lamp_count = STUDIO_LAMPS;
+    for (const Lamp *l = studio->lamps; l < studio->lamps + STUDIO_LAMPS; ++l)
+        EXPECT(l->ux * l->vx + l->uy * l->vy + l->uz * l->vz == 0.0f);
 }
 
 static void add_camera(Studio *studio, float aspect) {
