@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "error.h"
+#include "live_handles.h"
 #include "slopemix.h"
 
 namespace smx {
@@ -61,10 +62,21 @@ void copy_text(char (&field)[N], const std::string &value) {
 // parent may be released first.
 template <typename T>
 struct Handle {
-    explicit Handle(std::shared_ptr<T> shared) : object(std::move(shared)) {}
+    explicit Handle(std::shared_ptr<T> shared) : object(std::move(shared)) { add_live_handle(this); }
+    ~Handle() { remove_live_handle(this); }
+    Handle(const Handle &) = delete;
+    Handle &operator=(const Handle &) = delete;
+    static void operator delete(void *memory) noexcept { free_later(memory); }
+
     std::atomic<unsigned> references{1};
     std::shared_ptr<T> object;
 };
+
+template <typename T>
+void require_pointer(const Handle<T> *handle, const char *name) {
+    require(handle != nullptr, name, " is null");
+    require(is_live_handle(handle), name, " was released, or is no handle");
+}
 
 template <typename H>
 smx_status retain(H *handle, const char *name) noexcept {
@@ -74,9 +86,10 @@ smx_status retain(H *handle, const char *name) noexcept {
     });
 }
 
+// Does nothing with a handle that was released already.
 template <typename H>
 void release(H *handle) noexcept {
-    if (handle && handle->references.fetch_sub(1) == 1) delete handle;
+    if (handle && is_live_handle(handle) && handle->references.fetch_sub(1) == 1) delete handle;
 }
 
 } // namespace smx

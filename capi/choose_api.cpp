@@ -54,10 +54,11 @@ smx_status smx_choose(smx_context context, smx_brdf brdf, const smx_material *ma
         std::vector<std::shared_ptr<const Material>> kept;
         std::vector<const Material *> all;
         for (size_t k = 0; k < material_count; ++k) {
-            require(materials[k] != nullptr, "materials[", k, "] is null");
+            require_pointer(materials[k], text("materials[", k, "]").c_str());
             kept.push_back(materials[k]->object);
             all.push_back(kept.back().get());
         }
+        if (brdf) require_pointer(brdf, "brdf");
         const std::shared_ptr<const Brdf> table = brdf ? brdf->object : nullptr;
         std::optional<ChoiceTable> chosen_table;
         if (table) chosen_table.emplace(ChoiceTable{*table, proposal_of(brdf)});

@@ -35,10 +35,10 @@ smx_status smx_image_get_size(smx_image image, uint32_t *width, uint32_t *height
     });
 }
 
-const float *smx_image_pixels(smx_image image) { return image ? image->object->rgba.data() : nullptr; }
+const float *smx_image_pixels(smx_image image) { return is_live_handle(image) ? image->object->rgba.data() : nullptr; }
 
 const float *smx_image_errors(smx_image image) {
-    return image && !image->object->errors.empty() ? image->object->errors.data() : nullptr;
+    return is_live_handle(image) && !image->object->errors.empty() ? image->object->errors.data() : nullptr;
 }
 
 smx_status smx_image_set_attribute(smx_image image, const char *key, const char *value) {
@@ -52,7 +52,7 @@ smx_status smx_image_set_attribute(smx_image image, const char *key, const char 
 }
 
 const char *smx_image_get_attribute(smx_image image, const char *key) {
-    if (!image || !key) return nullptr;
+    if (!is_live_handle(image) || !key) return nullptr;
     const auto &attributes = image->object->attributes;
     const auto found =
         std::find_if(attributes.begin(), attributes.end(), [&](const auto &a) { return a.first == key; });

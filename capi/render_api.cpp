@@ -79,8 +79,8 @@ void fill(smx_render_report *report, const RenderReport &r) {
 }
 
 // What the integrators have in common: arguments, and outputs that are written only at the end.
-template <typename Integrator>
-smx_status render(smx_context context, const void *material, const char *material_name, const smx_scene *scene,
+template <typename Handle, typename Integrator>
+smx_status render(smx_context context, Handle material, const char *material_name, const smx_scene *scene,
                   const smx_render_options *options, smx_image *image, smx_render_report *report,
                   Integrator integrator) {
     return guarded([&] {

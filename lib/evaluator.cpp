@@ -78,11 +78,12 @@ Effects checked_effects(const Material &material, const RenderOptions &options, 
 Evaluator::Evaluator(Context &context, const Material &material, const Displacement &displacement, Masking masking,
                      const RenderOptions &options)
     : context_(context),
-      material_(simplified(material, checked_effects(material, options, masking))),
-      displacement_(simplified(checked(displacement), checked_effects(material, options, masking))),
+      on_(checked_effects(material, options, masking)),
+      material_(simplified(material, on_)),
+      displacement_(simplified(checked(displacement), on_)),
       grade_(options.grade),
       orders_(fixed_orders(material_, displacement_, checked_order(options))),
-      kernels_(material_, displacement_, checked_effects(material, options, masking), orders_, grade_) {
+      kernels_(material_, displacement_, on_, orders_, grade_) {
     validate(grade_, context);
 }
 

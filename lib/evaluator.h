@@ -59,6 +59,7 @@ class Evaluator {
     double in_parts(std::size_t count, const std::vector<HostArray> &arrays, const Run &run);
 
     Context &context_;
+    Effects on_;
     Material material_; // of what is simulated
     Displacement displacement_;
     Grade grade_;

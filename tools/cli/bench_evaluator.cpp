@@ -121,12 +121,37 @@ void bench_grade(BenchJob &job, const Material &material, smx_grade grade, Array
         });
 }
 
+// A renderer's beginning and one glance: a context, a material, ten directions.
+double seconds_to_begin(const ShadingCase &what, smx_context existing, Arrays &a) {
+    return seconds_of_call([&] {
+        const Context made = existing ? nullptr : acquire<Context>(smx_context_create, nullptr);
+        const Material material = acquire<Material>([&](smx_material *m) { return make_material(what, m); });
+        const smx_displacement x = {0.25, 0.25, 0.0, 0.0, 0.0};
+        const Evaluator evaluator = acquire<Evaluator>(smx_evaluator_create, existing ? existing : made.get(),
+                                                       material.get(), &x, SMX_G2_CORRELATED, nullptr);
+        const smx_vectors wi = SMX_PACKED(a.wi.data()), wo = SMX_PACKED(a.wo.data());
+        const smx_vectors_out fcos = SMX_PACKED(a.fcos.data());
+        return smx_evaluator_eval(evaluator.get(), 10, &wi, &wo, &fcos);
+    });
+}
+
+void bench_beginning(BenchJob &job, const ShadingCase &what, Arrays &a) {
+    Times second, same;
+    for (int run = 0; run < job.rounds; ++run) {
+        second.add(seconds_to_begin(what, nullptr, a), 1.0);
+        same.add(seconds_to_begin(what, job.context.get(), a), 1.0);
+    }
+    job.rows.push_back(
+        {"evaluator.second-context.n8", SMX_GRADE_PRECISE, second.median(), "same-context", same.median()});
+}
+
 } // namespace
 
 void bench_evaluator(BenchJob &job) {
     const ShadingCase what = shading_case(true, 8);
     const Material material = acquire<Material>([&](smx_material *made) { return make_material(what, made); });
     Arrays arrays;
+    bench_beginning(job, what, arrays);
     for (const smx_grade grade : bench_grades) {
         job.progress.start("evaluators", 1.0);
         bench_grade(job, material, grade, arrays);
