@@ -1,0 +1,18 @@
+# Fails unless DOCUMENT shows, as it stands, what is between the lines "/* README */" and "/* end of README */" of
+# SOURCE.
+file(READ ${SOURCE} source)
+file(READ ${DOCUMENT} document)
+set(begin "    /* README */\n")
+string(FIND "${source}" "${begin}" first)
+string(FIND "${source}" "    /* end of README */\n" last)
+string(LENGTH "${begin}" length)
+math(EXPR first "${first} + ${length}")
+math(EXPR length "${last} - ${first}")
+if(length LESS 200)
+  message(FATAL_ERROR "${SOURCE} has no part that is marked for the README")
+endif()
+string(SUBSTRING "${source}" ${first} ${length} part)
+string(FIND "${document}" "${part}" place)
+if(place LESS 0)
+  message(FATAL_ERROR "${DOCUMENT} does not show what is marked in ${SOURCE}:\n${part}")
+endif()
