@@ -347,6 +347,16 @@ bool is_ours(const std::string &name) { return name.starts_with("smx") || name.s
 
 } // namespace
 
+// Macros of a renderer's by the names of its parameters would change what it computes: they are refused before it.
+TEST(DeviceHeader, RefusesMacrosThatItNeeds) {
+    const std::string header = smx_device_header(), kernel = "__kernel void k(__global float *x) { x[0] = W; }";
+    for (const std::string name : {"W", "GRADE", "FRESNEL", "MASKING", "MEAN_SLOPE"}) {
+        cl::Program program(device().cl(), "#define " + name + " 0\n" + header + kernel);
+        EXPECT_THROW(program.build(), cl::Error) << name;
+    }
+    build(header + "#define W 3.0f\n" + kernel, 4);
+}
+
 // After the header, every name of its parts is free: a macro is not defined, and anything else can be a function.
 TEST(DeviceHeader, LeavesNoNamesButItsOwn) {
     std::set<std::string> macros, names;
