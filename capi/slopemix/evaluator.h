@@ -1,4 +1,5 @@
-/* A material on a displaced surface, evaluated for many directions at once. (Part of slopemix.h.) */
+/** @file
+ * A material on a displaced surface, evaluated for many directions at once. (Part of slopemix.h.) */
 #ifndef SLOPEMIX_EVALUATOR_H
 #define SLOPEMIX_EVALUATOR_H
 
@@ -8,34 +9,41 @@
 extern "C" {
 #endif
 
-/* Arrays of the caller's. Element k of x is x[k * stride], and so on; the stride, in floats, is at least 1. Directions
- * are unit vectors away from the surface, and are not normalised; elements hold r, g, b where a colour is written.
- * Arrays may lie in one another, as the members of an array of structs do; elements that are written may not be
- * elements of another array. Where the device shares the host's memory, kernels work on them in place; else they are
- * copied (smx_context_options.copy_arrays). Any number of elements may be given. */
+/** Arrays of the caller's, read. Element k of x is x[k * stride], and so on. Directions are unit vectors away from the
+ * surface, and are not normalised. Arrays may lie in one another, as the members of an array of structs do. Where the
+ * device shares the host's memory, kernels work on them in place; else they are copied
+ * (smx_context_options.copy_arrays). Any number of elements may be given. */
 typedef struct smx_vectors {
-    const float *x, *y, *z;
-    size_t stride;
+    const float *x; /**< of element 0 */
+    const float *y; /**< likewise */
+    const float *z; /**< likewise */
+    size_t stride;  /**< in floats, at least 1 */
 } smx_vectors;
 
+/** Like smx_vectors, written; elements hold r, g, b where a colour is written. They may not be elements of another
+ * array. */
 typedef struct smx_vectors_out {
-    float *x, *y, *z;
-    size_t stride;
+    float *x;      /**< of element 0 */
+    float *y;      /**< likewise */
+    float *z;      /**< likewise */
+    size_t stride; /**< in floats, at least 1 */
 } smx_vectors_out;
 
+/** Like smx_vectors_out, of one float each. */
 typedef struct smx_scalars_out {
-    float *values;
-    size_t stride;
+    float *values; /**< element 0 */
+    size_t stride; /**< in floats, at least 1 */
 } smx_scalars_out;
 
-/* Two ways in which vectors often lie: [count][3], and as planes, [3][count]. `p` is evaluated more than once. */
+/** Vectors that lie as [count][3]. `p` is evaluated more than once. */
 #define SMX_PACKED(p) \
     { (p), (p) + 1, (p) + 2, 3 }
+/** Vectors that lie as planes, [3][count]. `p` and `count` are evaluated more than once. */
 #define SMX_PLANES(p, count) \
     { (p), (p) + (count), (p) + 2 * (count), 1 }
 
-/* A material widened by X, on a context: what kernels need of both is made once. Immutable; it keeps the context alive,
- * and needs the material no more. Evaluations run on the context's first device. */
+/** A material widened by X, on a context: what kernels need of both is made once. Immutable; it keeps the context
+ * alive, and needs the material no more. Evaluations run on the context's first device. */
 typedef struct smx_evaluator_s *smx_evaluator;
 
 /** Makes an evaluator. Source: Dupuy 2015, chapter 5, or docs/widening.md for orders above 0.
@@ -46,25 +54,38 @@ typedef struct smx_evaluator_s *smx_evaluator;
  * @param masking       height-correlated, or separable
  * @param options       grade, effects and widening_order count; SMX_WIDENING_AUTO needs an image, and SMX_EFFECTS_AUTO
  *                      is all. NULL: the defaults
- * @param evaluator     the new handle; the caller owns one reference
- * @threads   any
- * @statuses  INVALID_ARGUMENT, OUT_OF_MEMORY */
+ * @param evaluator     the new handle; it keeps the context alive, and needs the material no more
+ * @ownership  the caller owns one reference of `*evaluator`
+ * @threads    any
+ * @statuses   INVALID_ARGUMENT, OUT_OF_MEMORY */
 SMX_API smx_status smx_evaluator_create(smx_context context, smx_material material,
                                         const smx_displacement *displacement, smx_masking masking,
                                         const smx_render_options *options, smx_evaluator *evaluator);
+
+/** Adds a reference.
+ *
+ * @param evaluator  the handle
+ * @threads   any
+ * @statuses  INVALID_ARGUMENT */
 SMX_API smx_status smx_evaluator_retain(smx_evaluator evaluator);
+
+/** Drops a reference.
+ *
+ * @param evaluator  the handle, or NULL
+ * @threads  any */
 SMX_API void smx_evaluator_release(smx_evaluator evaluator);
 
-/* What an evaluator computes; sums of these name several. */
+/** What an evaluator computes; sums of these name several. */
 typedef enum smx_quantity {
-    SMX_QUANTITY_FCOS = 1,
-    SMX_QUANTITY_PDF = 2,
-    SMX_QUANTITY_SAMPLE = 4,
-    SMX_QUANTITY_NDF = 8,
-    SMX_QUANTITY_SIGMA = 16,
-    SMX_QUANTITY_G1 = 32,
-    SMX_QUANTITY_G2 = 64
+    SMX_QUANTITY_FCOS = 1,   /**< smx_evaluator_eval */
+    SMX_QUANTITY_PDF = 2,    /**< smx_evaluator_pdf */
+    SMX_QUANTITY_SAMPLE = 4, /**< smx_evaluator_sample */
+    SMX_QUANTITY_NDF = 8,    /**< smx_evaluator_ndf */
+    SMX_QUANTITY_SIGMA = 16, /**< smx_evaluator_sigma */
+    SMX_QUANTITY_G1 = 32,    /**< smx_evaluator_g1 */
+    SMX_QUANTITY_G2 = 64     /**< smx_evaluator_g2 */
 } smx_quantity;
+/** The sum of all. */
 #define SMX_QUANTITY_ALL 127u
 
 /** Builds kernels ahead of their first use, which would else build them: seconds where no driver has them cached.
@@ -83,8 +104,8 @@ SMX_API smx_status smx_evaluator_build(smx_evaluator evaluator, uint32_t quantit
  * @param wi, wo     [count] to the light, to the viewer
  * @param fcos       [count] r, g, b
  * @threads   any; calls on one context run one after another
- * @statuses  INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY; after the last three `fcos` may be half
- * written */
+ * @statuses  INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY; after the last three `fcos` may be
+ *            half written */
 SMX_API smx_status smx_evaluator_eval(smx_evaluator evaluator, size_t count, const smx_vectors *wi,
                                       const smx_vectors *wo, const smx_vectors_out *fcos);
 
