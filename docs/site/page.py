@@ -28,6 +28,7 @@ def labelled(line, page):
 
 def linked(line, page):
     line = line.replace("](../cl/slopemix.clh)", "](device/slopemix_8clh.html)")  # a reference of its own
+    line = re.sub(r"\]\(\.\./capi/([\w/]+\.h)\)", r"](@ref \1)", line)
     line = re.sub(r"\]\(#([^)]*)\)", rf"](@ref {page}-\1)", line)
     return re.sub(r"\]\((?!http)([^)#]*\.md)#([^)]*)\)", lambda m: f"](@ref {name_of(m[1])}-{m[2]})", line)
 

@@ -85,4 +85,5 @@ def main(folder):
     return 1 if found or declared != len(functions) or not functions else 0
 
 
-sys.exit(main(sys.argv[1]))
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
