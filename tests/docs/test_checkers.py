@@ -1,4 +1,4 @@
-"""What checks the documentation finds what is wrong: each fault is planted in a header or a page that is right without it."""
+"""What checks the documentation finds what is wrong: each fault is planted in a header or a page that is right."""
 import pathlib
 import tempfile
 import unittest
