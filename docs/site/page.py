@@ -1,5 +1,5 @@
-"""Doxygen's filter for docs/*.md: gives every heading the label that links on a forge have, with the page's name before it,
-and makes links by them. Prints the page.
+"""Doxygen's filter for docs/*.md: gives every heading the label that links on a forge have, with the page's name before
+it, and makes links by them. Prints the page.
 
     page.py FILE.md
 """
@@ -27,6 +27,9 @@ def labelled(line, page):
 
 
 def linked(line, page):
+    line = re.sub(r"\[`([^`\]]*)`\]\((?!http)", r"[\1](", line)  # Doxygen takes no code in a link's text
+    line = line.replace("](../cl/slopemix.clh)", "](device/slopemix_8clh.html)")  # a reference of its own
+    line = re.sub(r"\]\(\.\./capi/([\w/]+\.h)\)", r"](@ref \1)", line)
     line = re.sub(r"\]\(#([^)]*)\)", rf"](@ref {page}-\1)", line)
     return re.sub(r"\]\((?!http)([^)#]*\.md)#([^)]*)\)", lambda m: f"](@ref {name_of(m[1])}-{m[2]})", line)
 

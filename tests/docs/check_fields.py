@@ -1,6 +1,6 @@
-"""Every function of the public headers has a comment with its fields: what it computes, a @param for each parameter and none
-besides, @return where it returns no status, @threads, @statuses where it does, and @ownership where it gives a handle or memory
-of the library's. Lists what is missing, and fails.
+"""Every function of the public headers has a comment with its fields: what it computes, a @param for each parameter and
+none besides, @return where it returns no status, @threads, @statuses where it does, and @ownership where it gives a
+handle or memory of the library's. Lists what is missing, and fails.
 
     check_fields.py CAPI
 """
@@ -34,7 +34,8 @@ def documented(fields):
 
 
 def gives_handle(declaration, handles):
-    return any(re.fullmatch(r"(\w+) \*\w+", " ".join(p.split())) and p.split()[0] in handles for p in declaration.split(","))
+    return any(re.fullmatch(r"(\w+) \*\w+", " ".join(p.split())) and p.split()[0] in handles
+               for p in declaration.split(","))
 
 
 def faults(returned, name, declaration, comment, handles, functions):
@@ -85,4 +86,5 @@ def main(folder):
     return 1 if found or declared != len(functions) or not functions else 0
 
 
-sys.exit(main(sys.argv[1]))
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

@@ -1,6 +1,6 @@
 """Runs the commands and the code of README.md, CONTRIBUTING.md and docs/*.md (blocks.py says what is run), and checks their
-links. Every page has a folder of its own, with a table gold-paint.binary and a folder merl/ of two (built-in materials by other
-names), in which its blocks are run in order; commands find an installation of the build, and images are small.
+links. Every page has a folder of its own, with a table gold-paint.binary and a folder merl/ of two (built-in materials
+by other names), in which its blocks are run in order; commands find an installation of the build, and images are small.
 
     SOURCE=DIR BUILD=DIR LIBDIR=lib run_docs.py [--slow] [PAGE...]
 """
@@ -70,7 +70,7 @@ def run_part(block, folder, environment):
     lines = [line.strip() for line in path.read_text().splitlines()]
     if not any(lines[k:k + len(wanted)] == wanted for k in range(len(lines))):
         raise Failed(f"{block}: {block.value} does not have these lines")
-    call([*C, str(path), f"-I{path.parent}", *flags(environment), "-o", "part"], folder, environment, f"{block}: {path}")
+    call([*C, str(path), f"-I{path.parent}", *flags(environment), "-o", "part"], folder, environment, str(block))
     call(["./part"], folder, environment, f"{block}: {block.value}")
 
 
@@ -112,7 +112,7 @@ def main(arguments):
                 failures.append(str(failure))
     for failure in failures:
         print(f"run_docs: {failure}", file=sys.stderr)
-    print(", ".join(f"{count} {what}" for what, count in sorted(counts.items())) + f", {len(failures)} failures")
+    print(", ".join([f"{count} {what}" for what, count in sorted(counts.items())] + [f"{len(failures)} failures"]))
     return 1 if failures or not counts["run"] else 0
 
 
@@ -125,7 +125,7 @@ def visit(blocks, slow, folder, environment, counts):
             counts["shown"] += 1
         elif block.kind == "not run" or (block.kind == "slow" and not slow):
             print(f"{block}: {block.kind}: {block.value}")
-            counts[f"{block.kind}"] += 1
+            counts[block.kind] += 1
         else:
             run(block, folder, environment)
             counts["run"] += 1
