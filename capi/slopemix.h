@@ -14,7 +14,8 @@
  *
  * @par Handles
  * are reference counted: smx_*_create gives one reference, smx_*_retain adds one, smx_*_release drops one (NULL is
- * legal). A child keeps its parents alive, so any order of release is legal.
+ * legal). A child keeps its parents alive, so any order of release is legal. A function that gets a handle which was
+ * released says so, SMX_INVALID_ARGUMENT: surely for the last 256 released, while no new handle has their address.
  *
  * @par Errors
  * A function that can fail returns smx_status: SMX_OK, or one that its comment lists, there without SMX_. When it

@@ -5,8 +5,9 @@
  * A context on the caller's cl_context and cl_command_queue is made by smx_context_create with both in its options; the
  * queue must be in order. Everything else works on it too.
  *
- * Nothing in this header waits for the device. The first evaluation of a quantity on a context builds its kernel, which
- * takes host time: smx_evaluator_build does it ahead. */
+ * Nothing in this header waits for what it enqueues. It does wait for calls of other threads on the same context, one
+ * of which may be rendering; and the first evaluation of a quantity on a context builds its kernel, which takes host
+ * time: smx_evaluator_build does it ahead. */
 #ifndef SLOPEMIX_OPENCL_H
 #define SLOPEMIX_OPENCL_H
 

@@ -83,7 +83,7 @@ smx_status call_failing_at(const Call &call, long n, bool on) {
 // Every n below `all`, then steps that grow: a fit allocates a hundred thousand times.
 // OpenEXR itself keeps some bytes where an allocation fails in it, or calls it a fault of the file.
 void expect_out_of_memory(const char *what, long all, const Call &call, bool is_openexr = false) {
-    EXPECT_SMX_OK(call()) << what; // what is kept for later calls is kept now
+    EXPECT_SMX_OK(call()) << what;  // what is kept for later calls is kept now
     for (int k = 0; k < 300; ++k) { // so is the memory of the handles released last, as much as there will be
         test::Image image;
         EXPECT_SMX_OK(smx_image_create(1, 1, nullptr, image.out()));

@@ -341,8 +341,8 @@ TEST(Drawn, WeightsAreBounded) {
                     }
 }
 
-// Orders above 0 draw in closed form and evaluate by nodes: no bound is known, and what docs/packed-material.md states is
-// measured here.
+// Orders above 0 draw in closed form and evaluate by nodes: no bound is known, and what docs/packed-material.md states
+// is measured here.
 TEST(Drawn, WeightsOfOrdersAreMeasured) {
     const std::vector<float> u = independent_numbers(8);
     double most = 0.0;

@@ -21,7 +21,8 @@ extern "C" {
  * @param wi, wo        [count][3], packed; to the light, to the viewer
  * @param fcos          [count][3], packed; linear RGB, 1/sr
  * @threads   any; calls on one context run one after another
- * @statuses  INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY */
+ * @statuses  INVALID_ARGUMENT, KERNEL_BUILD, DEVICE_ERROR, OUT_OF_MEMORY; after the last three `fcos` may be half
+ *            written */
 SMX_API smx_status smx_material_eval(smx_context context, smx_material material, const smx_displacement *displacement,
                                      smx_masking masking, const smx_render_options *options, size_t count,
                                      const float *wi, const float *wo, float *fcos);

@@ -91,7 +91,8 @@ def run(block, folder, environment):
 
 
 def pages():
-    return [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
+    return [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "examples/README.md",
+            *sorted((SOURCE / "docs").glob("*.md"))]
 
 
 def main(arguments):
