@@ -33,8 +33,8 @@ smx_status guarded(Body &&body) noexcept {
 
 inline void require_pointer(const void *pointer, const char *name) { require(pointer != nullptr, name, " is null"); }
 
-// Options of the caller's, or the defaults for NULL. There is one size yet: the first version that adds a field takes the
-// shorter struct too, and copies what it has over the defaults.
+// Options of the caller's, or the defaults for NULL. There is one size yet: the first version that adds a field takes
+// the shorter struct too, and copies what it has over the defaults.
 template <typename Options>
 Options checked(const Options *options, const Options &defaults, const char *name) {
     if (!options) return defaults;
