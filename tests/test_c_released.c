@@ -1,4 +1,5 @@
-/* Every function with a handle that was released already: INVALID_ARGUMENT, which names it; and nothing is touched. */
+/* Every function of slopemix.h with a handle that was released already: INVALID_ARGUMENT, which names it; and nothing
+ * is touched. (Those of slopemix_opencl.h: test_opencl_interop.cpp.) */
 #include "c_objects.h"
 
 #define RELEASED(name, call) FAILS(SMX_INVALID_ARGUMENT, name " was released", call)

@@ -130,6 +130,8 @@ TEST(Geometric, WithoutMaskingAndShadowingIsTheStatisticalReferenceWithoutThem) 
             scene.displacement.alpha_y *= 1.05;
             beyond_too_rough += share_beyond(g, unmasked_reference(brdf, scene), t_5_percent) / seeds;
         }
+        std::printf("X %g %g: %.1f %% beyond, %.1f %% of a surface that is too rough\n", x.alpha_x, x.alpha_y,
+                    100.0 * beyond, 100.0 * beyond_too_rough);
         EXPECT_LT(beyond, most_beyond) << "X " << x.alpha_x << " " << x.alpha_y;
         EXPECT_GT(beyond_too_rough, least_beyond) << "X " << x.alpha_x << " " << x.alpha_y;
     }
