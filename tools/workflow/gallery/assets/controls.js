@@ -74,7 +74,7 @@ gallery.controls = (() => {
   fillChoices("choose-shows", "shows", sheet.shows);
   fillChoices("choose-light", "light", sheet.lights);
   fillOptions("row", sheet.rows);
-  fillOptions("range", RANGES.map((range) => ({ key: range, label: `± ${range}` })));
+  fillOptions("range", RANGES.map((range) => ({ key: range, label: `up to ${range}` })));
 
   onChoice("shows", (shows) => set({ shows }));
   onChoice("view", (view) => set({ view }));
