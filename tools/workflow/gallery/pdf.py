@@ -37,9 +37,16 @@ def write_pdf(to: Path, materials: list[Material]) -> None:
     write_bytes(to / "gallery.pdf", finished(writer))
 
 
+WHOLE = """() => {
+    for (const details of document.querySelectorAll("details")) details.open = true;
+    for (const image of document.images) image.loading = "eager";
+    return Promise.all([...document.images].map((image) => image.decode()));
+}"""
+
+
 def print_page(page: Page, path: Path) -> bytes:
     page.goto(path.resolve().as_uri())
-    page.evaluate("() => Promise.all([...document.images].map((image) => { image.loading = 'eager'; return image.decode(); }))")
+    page.evaluate(WHOLE)
     return page.pdf(prefer_css_page_size=True, print_background=True)
 
 
