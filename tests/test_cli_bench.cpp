@@ -79,8 +79,10 @@ TEST(CliBench, TimesAndRatios) {
         } else if (baseline == "same-context") {
             EXPECT_LT(ratio, 2.0) << row; // a context more, of one run
         } else if (name == "effects.none.n1") {
+            EXPECT_GT(ratio, 0.7) << row; // about 1.5 on a quiet machine, and 3 with 8 lobes
+        } else if (name == "effects.none.n8") {
             EXPECT_GT(ratio, 1.0) << row;
-        } else if (baseline != "all-effects") { // of which some cost nothing
+        } else if (baseline != "all-effects") { // of which some cost nothing, 10 times and more
             EXPECT_GT(ratio, 1.0) << row;
         }
     }

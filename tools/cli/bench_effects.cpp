@@ -8,7 +8,7 @@ namespace slopemix::cli {
 
 namespace {
 
-constexpr int runs_per_round = 5;
+constexpr int pairs_per_round = 9;
 
 // All that filtered shading simulates.
 constexpr std::uint32_t all_effects = SMX_EFFECT_MASKING | SMX_EFFECT_SHADOWING | SMX_EFFECT_HEIGHT_CORRELATION |
@@ -28,12 +28,11 @@ std::vector<Variant> variants() {
     return list;
 }
 
-void add_runs(Times &times, BenchJob &job, const Material &material, std::uint32_t effects, int runs) {
+void add_run(Times &times, BenchJob &job, const Material &material, std::uint32_t effects) {
     smx_render_options options = SMX_RENDER_OPTIONS_INIT;
     options.effects = effects;
     job.progress.attach(options);
-    for (int run = 0; run < runs; ++run)
-        times.add(render_filtered(job.context, material, shading_scene(), options).report);
+    times.add(render_filtered(job.context, material, shading_scene(), options).report);
 }
 
 void bench_lobes(BenchJob &job, int count) {
@@ -41,11 +40,11 @@ void bench_lobes(BenchJob &job, int count) {
     const Material material = acquire<Material>([&](smx_material *made) { return make_material(what, made); });
     for (const auto &[name, effects] : variants()) {
         Times without, with, compiled;
-        add_runs(compiled, job, material, effects, 1);
-        add_runs(compiled, job, material, all_effects, 1);
-        for (int round = 0; round < job.rounds; ++round) {
-            add_runs(without, job, material, effects, runs_per_round);
-            add_runs(with, job, material, all_effects, runs_per_round);
+        add_run(compiled, job, material, effects);
+        add_run(compiled, job, material, all_effects);
+        for (int pair = 0; pair < job.rounds * pairs_per_round; ++pair) { // what disturbs one disturbs both
+            add_run(without, job, material, effects);
+            add_run(with, job, material, all_effects);
         }
         job.rows.push_back({"effects." + name + ".n" + std::to_string(count), SMX_GRADE_PRECISE, without.median(),
                             "all-effects", with.median()});
