@@ -13,6 +13,7 @@ std::unique_ptr<CLI::App> make_app() {
     app->set_version_flag("--version", std::string("slopemix ") + smx_version());
     app->require_subcommand(1);
     add_info(*app);
+    add_materials(*app);
     add_synth(*app);
     add_fit(*app);
     add_render(*app);

@@ -14,6 +14,7 @@ namespace slopemix::cli {
 std::unique_ptr<CLI::App> make_app();
 
 void add_info(CLI::App &app);
+void add_materials(CLI::App &app);
 void add_synth(CLI::App &app);
 void add_fit(CLI::App &app);
 void add_render(CLI::App &app);

@@ -1,4 +1,5 @@
-// One run at a time in a folder. The lock goes with its process, however that ends.
+// One run at a time in a folder, or several that do not disturb each other. The lock goes with its process, however
+// that ends.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +8,11 @@ namespace slopemix::cli {
 
 class FolderLock {
   public:
-    // Makes the folder if it is missing. Throws CommandError where another process has it. A file system without locks
-    // is not locked.
-    explicit FolderLock(const std::filesystem::path &folder);
+    enum class Mode { alone, beside_others };
+
+    // Makes the folder if it is missing. Throws CommandError where another process has it, alone or where this one
+    // wants to be alone. A file system without locks is not locked.
+    explicit FolderLock(const std::filesystem::path &folder, Mode mode = Mode::alone);
     ~FolderLock();
     FolderLock(const FolderLock &) = delete;
     FolderLock &operator=(const FolderLock &) = delete;

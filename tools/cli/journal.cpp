@@ -55,12 +55,18 @@ Journal::Json Journal::read_object(const fs::path &file) {
     return document;
 }
 
-void Journal::require_settings(const fs::path &file, const Json &object, const Json &settings) {
+std::string Journal::difference(const Json &object, const Json &settings) {
     for (const auto &[name, wanted] : settings.items()) {
         const Json found = object.value(name, Json());
         if (found != wanted)
-            refuse(file, "it was made with " + name + " = " + found.dump() + ", and this run has " + wanted.dump());
+            return "it was made with " + name + " = " + found.dump() + ", and this run has " + wanted.dump();
     }
+    return "";
+}
+
+void Journal::require_settings(const fs::path &file, const Json &object, const Json &settings) {
+    const std::string reason = difference(object, settings);
+    if (!reason.empty()) refuse(file, reason);
 }
 
 Journal::Content Journal::read() const {

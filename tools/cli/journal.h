@@ -41,6 +41,9 @@ class Journal {
     static Json read_object(const std::filesystem::path &file);
     static void require_settings(const std::filesystem::path &file, const Json &object, const Json &settings);
 
+    // Says which of `settings` is another in `object`, "it was made with ...", or nothing.
+    static std::string difference(const Json &object, const Json &settings);
+
   private:
     std::filesystem::path file_;
     Json settings_;

@@ -1,9 +1,7 @@
-// JSON has no infinity, which a comparison with a black reference gives: null stands for it.
 #include "sheet_entry.h"
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace slopemix::cli {
 
@@ -18,6 +16,8 @@ Json orders_json(const smx_render_report &report) {
         std::find_if(std::rbegin(report.widening_orders), std::rend(report.widening_orders), is_lobe).base();
     return std::vector<std::uint8_t>(std::begin(report.widening_orders), end);
 }
+
+} // namespace
 
 Json report_json(const smx_render_report &report) {
     return {{"seconds", report.seconds},
@@ -44,44 +44,13 @@ smx_render_report report_of(const Json &json) {
     return report;
 }
 
-Json errors_json(const std::optional<smx_comparison> &errors) {
-    if (!errors) return {};
-    return {{"relrmse", errors->relrmse},
-            {"rmse", errors->rmse},
-            {"max_error", errors->max_error},
-            {"bias", errors->bias},
-            {"pixels", errors->pixels}};
-}
-
-double finite_or_infinity(const Json &json) {
-    return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
-}
-
-std::optional<smx_comparison> errors_of(const Json &json) {
-    if (json.is_null()) return {};
-    smx_comparison errors = SMX_COMPARISON_INIT;
-    errors.relrmse = finite_or_infinity(json.at("relrmse"));
-    errors.rmse = finite_or_infinity(json.at("rmse"));
-    errors.max_error = finite_or_infinity(json.at("max_error"));
-    errors.bias = finite_or_infinity(json.at("bias"));
-    errors.pixels = json.at("pixels");
-    return errors;
-}
-
-} // namespace
-
 Json item_of(const SheetEntry &entry) {
-    return {{"id", to_string(entry.image.id)},
-            {"sha256", entry.sha256},
-            {"bright", entry.bright},
-            {"report", report_json(entry.report)},
-            {"errors", errors_json(entry.errors)}};
+    return {{"id", to_string(entry.image.id)}, {"sha256", entry.sha256}, {"report", report_json(entry.report)}};
 }
 
 SheetEntry entry_of(const Json &item, const SheetJob &job, const SheetPlan &plan) {
     const ImageId id = parse_image_ids(item.at("id").get<std::string>()).at(0);
-    return {plan.image(id),    job.image_file(id), report_of(item.at("report")), errors_of(item.at("errors")),
-            item.at("bright"), item.at("sha256")};
+    return {plan.image(id), job.image_file(id), report_of(item.at("report")), item.at("sha256")};
 }
 
 } // namespace slopemix::cli

@@ -1,4 +1,4 @@
-// A finished image of a sheet as an item of its journal, and back.
+// A finished image of a sheet as an item of its journal, and back; and how its rendering went.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,6 +6,9 @@
 #include "sheet_job.h"
 
 namespace slopemix::cli {
+
+nlohmann::ordered_json report_json(const smx_render_report &report);
+smx_render_report report_of(const nlohmann::ordered_json &json); // throws a JSON exception
 
 nlohmann::ordered_json item_of(const SheetEntry &entry);
 

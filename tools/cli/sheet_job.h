@@ -23,7 +23,9 @@ struct SheetJob {
     std::vector<std::uint32_t> lobes = {1, 8};
     bool with_per_lobe = false;
     std::vector<std::int32_t> widening_orders; // more columns of the per-lobe model
+    std::vector<std::string> fit_files;        // in place of fits: one for each, in the columns' order
     std::vector<ImageId> only;
+    bool collect = false;
     bool resume = false;
     bool json = false;
 
@@ -43,21 +45,23 @@ struct SheetJob {
     std::filesystem::path file(const std::string &name) const { return std::filesystem::path(out) / name; }
     std::filesystem::path journal_file() const { return file("sheet.partial.json"); }
     std::filesystem::path image_file(const ImageId &id) const { return file(to_string(id) + ".exr"); }
+    std::filesystem::path record_file(const ImageId &id) const { return file(to_string(id) + ".json"); }
 };
 
 struct SheetEntry {
     SheetImage image;
     std::filesystem::path file;
     smx_render_report report;
-    std::optional<smx_comparison> errors; // of filtered images
-    double bright;                        // bright_value() of what sets its exposure: a filtered image's reference
-    std::string sha256 = {};              // of the file
+    std::string sha256 = {};                   // of the file
+    std::optional<smx_comparison> errors = {}; // of filtered images, once they are measured
 };
 
 struct SheetFit {
     smx_model model;
-    std::uint32_t lobes; // asked for
-    smx_fit_report report;
+    std::uint32_t lobes;        // asked for
+    std::uint32_t fitted_lobes; // as many or fewer
+    double log_likelihood, residual, seconds;
+    std::string material_sha256; // of the material file that it was read from; empty: it was made here
 };
 
 struct SheetResult {
@@ -67,29 +71,37 @@ struct SheetResult {
     std::vector<SheetEntry> entries;
     double geometry_bright = 0.0;                            // largest 99th percentile of the geometry images
     std::array<double, light_degrees.size()> light_bright{}; // and of the references, light by light
-    double reference_seconds = 0.0;                          // of references that were rendered
-    std::uint64_t reference_samples = 0;
-    std::size_t kept_images = 0; // of an interrupted run; its times are in the totals
+    std::size_t kept_images = 0; // rendered by other runs; what is known of their times is in the totals
     double earlier_seconds = 0.0, earlier_build_seconds = 0.0;
     double total_seconds = 0.0;
     double build_seconds = 0.0; // of these, compiling kernels
 
-    double seconds_per_reference_sample() const {
-        return reference_samples == 0 ? 0.0 : reference_seconds / static_cast<double>(reference_samples);
-    }
+    double reference_seconds() const; // without compilation
+    double seconds_per_reference_sample() const;
 };
 
 class SheetJournal;
 
-// Renders the plan's images, without those that the journal has. Where it has the whole sheet, nothing is done.
+// Renders all of the plan's images that the journal does not have. Where it has the whole sheet, nothing is done.
 SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal);
+
+// The images that were rendered one by one (sheet_record.h). Throws CommandError where one is missing, damaged or made
+// with other settings, and names it.
+SheetResult collect_sheet(const SheetJob &job, const SheetPlan &plan);
+
+// Reads the images: the errors of the filtered ones, and what the exposures need.
+void measure_sheet(const SheetJob &job, const SheetPlan &plan, SheetResult &result);
 
 // The contact sheet of what was rendered.
 void draw_sheet(const SheetJob &job, const SheetPlan &plan, const SheetResult &result,
                 const std::filesystem::path &file);
 
-// What the images depend on: members of sheet.json, which a resumed run must have too.
-nlohmann::ordered_json sheet_settings(const SheetJob &job, const SheetResult &result);
+// What an image depends on: members of sheet.json, which what is resumed or collected must have too.
+nlohmann::ordered_json sheet_settings(const SheetJob &job, const smx_brdf_info &material);
+
+// An image and a fit as they stand in sheet.json; the fit is that of a filtered image.
+nlohmann::ordered_json image_json(const SheetEntry &entry, const SheetFit *fit);
+nlohmann::ordered_json fit_json(const SheetFit &fit);
 
 // sheet.json, and the summary on standard output.
 std::string sheet_json(const SheetJob &job, const SheetResult &result);

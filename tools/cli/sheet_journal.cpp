@@ -14,23 +14,26 @@ namespace {
 using Json = Journal::Json;
 
 Json totals_json(const SheetResult &result) {
-    return {{"total_seconds", result.total_seconds},
-            {"build_seconds", result.build_seconds},
-            {"reference_seconds", result.reference_seconds},
-            {"reference_samples", result.reference_samples}};
+    return {{"total_seconds", result.total_seconds}, {"build_seconds", result.build_seconds}};
 }
 
 void take_totals(const Json &totals, SheetResult &result) {
     totals.at("total_seconds").get_to(result.earlier_seconds);
     totals.at("build_seconds").get_to(result.earlier_build_seconds);
-    totals.at("reference_seconds").get_to(result.reference_seconds);
-    totals.at("reference_samples").get_to(result.reference_samples);
+}
+
+// Of a whole sheet: the device too, and the files that it does not fit itself.
+Json settings_of(const SheetJob &job, const SheetResult &result) {
+    Json settings = sheet_settings(job, result.material);
+    settings["device"] = result.device;
+    settings["material_files"] = Json::array();
+    for (const std::string &file : job.fit_files) settings["material_files"].push_back(sha256_of_file(file));
+    return settings;
 }
 
 std::vector<fs::path> files_of(const SheetJob &job, const SheetPlan &plan) {
     std::vector<fs::path> files = {job.journal_file(), job.file("sheet.json"), job.file("sheet.png")};
-    for (const SheetStep &step : plan.steps())
-        if (step.is_output) files.push_back(job.image_file(step.image.id));
+    for (const SheetImage &image : plan.images({})) files.push_back(job.image_file(image.id));
     return files;
 }
 
@@ -39,7 +42,7 @@ std::vector<fs::path> files_of(const SheetJob &job, const SheetPlan &plan) {
 void SheetJournal::open(SheetResult &result) {
     lock_.emplace(job_.out);
     remove_leftovers(files_of(job_, plan_));
-    const Json settings = sheet_settings(job_, result);
+    const Json settings = settings_of(job_, result);
     journal_.emplace(job_.journal_file(), settings);
     switch (journal_->start(job_.resume, job_.file("sheet.json"), "sheet")) {
         case Journal::Start::resumed:
@@ -76,9 +79,9 @@ void SheetJournal::require_complete(const Json &settings) {
             Journal::refuse(file, "it is damaged, an image has no id");
         digests[image["id"].get<std::string>()] = image.value("sha256", Json());
     }
-    for (const SheetStep &step : plan_.steps()) {
-        const std::string id = to_string(step.image.id);
-        if (step.is_output && digests[id] != sha256_of_file(job_.image_file(step.image.id)))
+    for (const SheetImage &image : plan_.images({})) {
+        const std::string id = to_string(image.id);
+        if (digests[id] != sha256_of_file(job_.image_file(image.id)))
             Journal::refuse(file, id + ".exr is not the image that it describes");
     }
     is_complete_ = true;

@@ -1,12 +1,11 @@
-// The sheet's images: which there are, what each shows, and in which order they are rendered. Three tables by the
-// direction of the roughness, a row per radius r, and the columns: geometry, then for each light the reference and
-// one filtered image of the shared model per number of lobes; then, for each widening order that is asked for, the
-// per-lobe model with the last of these numbers, light by light.
+// The sheet's images: which there are, and what each shows. Three tables by the direction of the roughness, a row per
+// radius r, and the columns: geometry, then for each light the reference and one filtered image of the shared model per
+// number of lobes; then, for each widening order that is asked for, the per-lobe model with the last of these numbers,
+// light by light.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,16 +31,9 @@ struct SheetImage {
     bool has_light() const { return role != Role::geometry; }
 };
 
-struct SheetStep {
-    SheetImage image;
-    bool is_output; // false: a reference that is needed for comparison only
-};
-
 class SheetPlan {
   public:
-    // `only` empty: all images. Throws std::invalid_argument for an image that the sheet does not have.
-    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, std::vector<std::int32_t> orders,
-              const std::vector<ImageId> &only);
+    SheetPlan(std::vector<double> radii, std::vector<std::uint32_t> lobes, std::vector<std::int32_t> orders);
 
     const std::vector<double> &radii() const { return radii_; }
     const std::vector<std::uint32_t> &lobes() const { return lobes_; }
@@ -51,20 +43,22 @@ class SheetPlan {
 
     SheetImage image(ImageId id) const;
 
-    // Table by table, row by row, light by light; a filtered image always comes after its reference.
-    std::vector<SheetStep> steps() const;
+    // Table by table, row by row, column by column: all images, or `only` these, each once. Throws
+    // std::invalid_argument for one that the sheet does not have.
+    std::vector<SheetImage> images(const std::vector<ImageId> &only) const;
+
+    // What a filtered image is compared with.
+    SheetImage reference_of(const SheetImage &filtered) const;
 
   private:
     static constexpr auto lights = static_cast<std::uint32_t>(light_degrees.size());
     std::uint32_t shared_columns() const { return 1 + lights * per_light(); }
-    std::vector<ImageId> filtered_under(const ImageId &reference, std::uint32_t light) const;
     std::uint32_t per_light() const { return 1 + static_cast<std::uint32_t>(lobes_.size()); }
-    bool is_wanted(const ImageId &id) const { return only_.empty() || only_.contains(id); }
+    std::vector<ImageId> all() const;
 
     std::vector<double> radii_;
     std::vector<std::uint32_t> lobes_;
     std::vector<std::int32_t> orders_; // of the per-lobe columns
-    std::set<ImageId> only_;
 };
 
 } // namespace slopemix::cli

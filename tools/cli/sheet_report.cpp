@@ -66,49 +66,11 @@ const char *integrator_of(Role role) {
     return "unknown";
 }
 
-// Of a filtered image, whose material is always fitted.
-std::uint32_t fitted_lobes(const SheetResult &result, const SheetImage &image) {
-    return std::find_if(result.fits.begin(), result.fits.end(),
-                        [&](const SheetFit &fit) { return fit.model == image.model && fit.lobes == image.lobes; })
-        ->report.lobes;
-}
-
-Json image_json(const SheetEntry &entry, const SheetResult &result) {
-    const SheetImage &image = entry.image;
-    const bool filtered = image.role == Role::filtered;
-    Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
-    json["sha256"] = entry.sha256;
-    json["alpha_x"] = image.alpha_x;
-    json["alpha_y"] = image.alpha_y;
-    json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
-    json["lobes"] = filtered ? Json(image.lobes) : Json();
-    json["model"] = filtered ? Json(word_for(image.model, models)) : Json();
-    json["widening_order"] = filtered ? order_json(image.widening_order) : Json();
-    json["widening_orders"] = filtered ? Json(orders_of(entry.report, fitted_lobes(result, image))) : Json();
-    json["unsettled"] = filtered ? Json(entry.report.unsettled) : Json();
-    const bool reference = image.role == Role::reference;
-    json["spp"] = reference ? Json(entry.report.spp) : Json();
-    json["standard_error"] =
-        reference && entry.report.standard_error >= 0.0 ? Json(entry.report.standard_error) : Json();
-    json["seconds"] = entry.report.seconds;
-    if (entry.errors) {
-        json["relrmse"] = entry.errors->relrmse;
-        json["max_error"] = entry.errors->max_error;
-        json["bias"] = entry.errors->bias;
-    }
-    return json;
-}
-
-Json fits_json(const SheetResult &result) {
-    Json fits = Json::array();
-    for (const SheetFit &fit : result.fits)
-        fits.push_back({{"model", word_for(fit.model, models)},
-                        {"lobes", fit.lobes},
-                        {"fitted_lobes", fit.report.lobes},
-                        {"log_likelihood", fit.report.log_likelihood},
-                        {"residual", fit.report.residual},
-                        {"seconds", fit.report.seconds}});
-    return fits;
+// Of a filtered image, whose material is always fitted; null of others.
+const SheetFit *fit_of(const SheetImage &image, const SheetResult &result) {
+    const auto is_its = [&](const SheetFit &fit) { return fit.model == image.model && fit.lobes == image.lobes; };
+    const auto found = std::find_if(result.fits.begin(), result.fits.end(), is_its);
+    return image.role == Role::filtered && found != result.fits.end() ? &*found : nullptr;
 }
 
 Json summary_json(const SheetResult &result) {
@@ -138,11 +100,9 @@ Json only_json(const SheetJob &job) {
     return ids;
 }
 
-Json settings_json(const SheetJob &job, const SheetResult &result) {
+Json settings_json(const SheetJob &job) {
     const RenderFlags &flags = job.flags;
-    return {{"device", result.device},
-            {"only", only_json(job)},
-            {"model", job.per_lobe_orders().empty() ? "shared" : "both"},
+    return {{"model", job.per_lobe_orders().empty() ? "shared" : "both"},
             {"resolution", {flags.resolution.width, flags.resolution.height}},
             {"radii", job.radii},
             {"lobes", job.lobes},
@@ -168,28 +128,82 @@ Json exposures_json(const SheetResult &result) {
 
 } // namespace
 
-Json sheet_settings(const SheetJob &job, const SheetResult &result) {
-    Json settings = {{"version", SMX_VERSION_STRING}, {"sha256", result.material.sha256}};
-    settings.update(settings_json(job, result));
+Json sheet_settings(const SheetJob &job, const smx_brdf_info &material) {
+    Json settings = {{"version", SMX_VERSION_STRING}, {"sha256", material.sha256}};
+    settings.update(settings_json(job));
     return settings;
+}
+
+Json image_json(const SheetEntry &entry, const SheetFit *fit) {
+    const SheetImage &image = entry.image;
+    const bool filtered = image.role == Role::filtered;
+    Json json = {{"id", to_string(image.id)}, {"column", image.id.column}, {"integrator", integrator_of(image.role)}};
+    json["sha256"] = entry.sha256;
+    json["alpha_x"] = image.alpha_x;
+    json["alpha_y"] = image.alpha_y;
+    json["light_phi_deg"] = image.has_light() ? Json(light_degrees[image.light]) : Json();
+    json["lobes"] = filtered ? Json(image.lobes) : Json();
+    json["model"] = filtered ? Json(word_for(image.model, models)) : Json();
+    json["widening_order"] = filtered ? order_json(image.widening_order) : Json();
+    json["widening_orders"] = filtered ? Json(orders_of(entry.report, fit->fitted_lobes)) : Json();
+    json["unsettled"] = filtered ? Json(entry.report.unsettled) : Json();
+    const bool reference = image.role == Role::reference;
+    json["spp"] = reference ? Json(entry.report.spp) : Json();
+    json["standard_error"] =
+        reference && entry.report.standard_error >= 0.0 ? Json(entry.report.standard_error) : Json();
+    json["seconds"] = entry.report.seconds;
+    if (entry.errors) {
+        json["relrmse"] = entry.errors->relrmse;
+        json["max_error"] = entry.errors->max_error;
+        json["bias"] = entry.errors->bias;
+    }
+    return json;
+}
+
+Json fit_json(const SheetFit &fit) {
+    return {{"model", word_for(fit.model, models)},
+            {"lobes", fit.lobes},
+            {"fitted_lobes", fit.fitted_lobes},
+            {"log_likelihood", fit.log_likelihood},
+            {"residual", fit.residual},
+            {"seconds", fit.seconds},
+            {"material_sha256", fit.material_sha256.empty() ? Json() : Json(fit.material_sha256)}};
 }
 
 std::string sheet_json(const SheetJob &job, const SheetResult &result) {
     Json document = {{"schema", schema_version}};
     document["material"] = result.material.name;
     document["source"] = result.material.source;
-    document.update(sheet_settings(job, result));
+    document.update(sheet_settings(job, result.material));
+    document["device"] = result.device;
+    document["only"] = only_json(job);
     document["kept_images"] = result.kept_images;
     document["total_seconds"] = result.total_seconds;
     document["build_seconds"] = result.build_seconds;
-    document["reference_seconds"] = result.reference_seconds;
+    document["reference_seconds"] = result.reference_seconds();
     document["seconds_per_reference_sample"] = result.seconds_per_reference_sample();
-    document["fits"] = fits_json(result);
+    document["fits"] = Json::array();
+    for (const SheetFit &fit : result.fits) document["fits"].push_back(fit_json(fit));
     document["summary"] = summary_json(result);
     document["exposures"] = exposures_json(result);
     document["images"] = Json::array();
-    for (const SheetEntry &entry : result.entries) document["images"].push_back(image_json(entry, result));
+    for (const SheetEntry &entry : result.entries)
+        document["images"].push_back(image_json(entry, fit_of(entry.image, result)));
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+double SheetResult::reference_seconds() const {
+    double seconds = 0.0;
+    for (const SheetEntry &entry : entries)
+        if (entry.image.role == Role::reference) seconds += entry.report.seconds - entry.report.build_seconds;
+    return seconds;
+}
+
+double SheetResult::seconds_per_reference_sample() const {
+    double samples = 0.0;
+    for (const SheetEntry &entry : entries)
+        if (entry.image.role == Role::reference) samples += static_cast<double>(entry.report.evaluations);
+    return samples > 0.0 ? reference_seconds() / samples : 0.0;
 }
 
 void print_summary(const SheetJob &job, const SheetResult &result) {
@@ -211,9 +225,9 @@ void print_summary(const SheetJob &job, const SheetResult &result) {
 
     Facts facts = {{"total seconds",
                     fixed(result.total_seconds, 2) + " (compiling kernels " + fixed(result.build_seconds, 2) + ")"}};
-    if (result.reference_samples > 0)
+    if (result.seconds_per_reference_sample() > 0.0)
         facts.emplace_back("seconds per reference sample", general(result.seconds_per_reference_sample(), 3));
-    if (result.kept_images > 0) facts.emplace_back("images of the interrupted run", std::to_string(result.kept_images));
+    if (result.kept_images > 0) facts.emplace_back("images of earlier runs", std::to_string(result.kept_images));
     facts.emplace_back("contact sheet", job.file("sheet.png").string());
     print_facts(std::cout, facts);
 }
