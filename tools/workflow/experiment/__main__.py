@@ -25,8 +25,8 @@ def settings_of(parsed, settings, listed):
     return settings | {
         "tradeoff": folder.chosen(listed, settings["tradeoff"], "--tradeoff") if settings["tradeoff"] else [],
         "names": folder.chosen(listed, parsed.only, "--only"), "merl": str(parsed.merl.resolve()),
-        "slopemix": str(folder.program(slopemix)), "version": folder.call(slopemix, "--version").strip(),
-        "python": sys.executable}
+        "slopemix": str(folder.program(slopemix)), "version": folder.call(slopemix, "--version").split()[-1],
+        "python": sys.executable, "cores": parsed.cores}
 
 
 def make(parsed, settings, target, lock):

@@ -3,6 +3,7 @@ import argparse
 import os
 import pathlib
 import re
+import sys
 
 import yaml
 
@@ -10,7 +11,7 @@ DEFAULTS = pathlib.Path(__file__).parent.parent / "config.yaml"
 STAGES = ("metrics", "summary", "gallery", "pdf")
 DESCRIPTION = """Runs the whole experiment over a folder of MERL tables: of each material its fits, its sheet of images and
 their errors; then the summary over the materials and the gallery. The same command line goes on where it was
-interrupted; other settings compute anew what depends on them. docs/experiment.md has more."""
+interrupted; other settings compute anew what depends on them. Flags behind -- go to Snakemake. docs/experiment.md has more."""
 
 
 def numbers(kind, low, high=float("inf")):
@@ -92,7 +93,10 @@ def parser_of(defaults):
 def parse(arguments=None):
     """The arguments, and the settings of config.yaml with what the flags say."""
     defaults = yaml.safe_load(DEFAULTS.read_text())
-    parsed = parser_of(defaults).parse_args(arguments)
+    arguments = sys.argv[1:] if arguments is None else arguments
+    ours = arguments[:arguments.index("--")] if "--" in arguments else arguments
+    parsed = parser_of(defaults).parse_args(ours)
+    parsed.snakemake = arguments[len(ours) + 1:]
     asked = {key: getattr(parsed, key) for key in defaults if getattr(parsed, key) is not None}
     if "target_error" in asked:
         asked["spp"] = 0

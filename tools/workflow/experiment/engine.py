@@ -31,11 +31,11 @@ def command(arguments, out, target):
     or version is made anew. Snakemake's own locks are left alone, ours does what they do and goes with its process."""
     return [sys.executable, "-m", "snakemake", target, "--snakefile", str(WORKFLOW / "Snakefile"), "--directory", str(out),
             "--configfile", str(out / "settings.json"), "--keep-going", "--rerun-incomplete", "--nolock",
-            "--rerun-triggers", "mtime", "params", "input", "--scheduler", "greedy", *place(arguments)]
+            "--rerun-triggers", "mtime", "params", "input", "--scheduler", "greedy", *place(arguments), *arguments.snakemake]
 
 
 def run(arguments, out, target, lock, say):
-    """Whether all jobs are done, and the logs of those that failed. What Snakemake says goes to OUT/logs/snakemake.log."""
+    """Whether all jobs are done, and for each that failed its logs, a cluster's own last. What Snakemake says goes to OUT/logs/snakemake.log."""
     (out / "logs").mkdir(exist_ok=True)
     said, shown = [], -1
     with open(out / "logs" / "snakemake.log", "w") as log:
@@ -50,7 +50,7 @@ def run(arguments, out, target, lock, say):
                 shown = int(steps[3]) // 5
                 say(f"{steps[1]} of {steps[2]} jobs done")
         status = process.wait()
-    return status == 0, sorted(set(LOG.findall("".join(said))))
+    return status == 0, sorted({tuple(logs.split(", ")) for logs in LOG.findall("".join(said))})
 
 
 def unfinished(arguments, out, target):

@@ -12,12 +12,12 @@ def missing(listed, only):
             if not material["present"] and (not only or material["name"] in only)]
 
 
-def complaint(log):
-    """What the job said when it failed: slopemix's message, or else its last line."""
-    try:
-        lines = [line.strip() for line in log.read_text(errors="replace").splitlines() if line.strip()]
-    except OSError:
+def complaint(logs):
+    """What the job said when it failed: slopemix's message, or else its last line, in the first log that it left."""
+    left = next((log for log in logs if log.is_file()), None)
+    if not left:
         return "it left no log"
+    lines = [line.strip() for line in left.read_text(errors="replace").splitlines() if line.strip()]
     messages = [line for line in lines if line.startswith("slopemix: ")] or [
         line for line in lines if not line.startswith("status ")]
     return (messages or lines or ["it said nothing"])[-1]
@@ -26,11 +26,11 @@ def complaint(log):
 def failed(out, logs):
     """A line per stage and material of which jobs failed, with what the first of them said."""
     groups = {}
-    for log in sorted(logs):
-        parts = pathlib.Path(log).with_suffix("").parts[1:3]
-        groups.setdefault(" of ".join(parts), []).append(log)
-    return [f"failed: {job}, {len(group)} job{'s' * (len(group) > 1)}: {complaint(out / group[0])} ({group[0]})"
-            for job, group in groups.items()]
+    for of_job in sorted(logs):
+        parts = pathlib.Path(of_job[0]).with_suffix("").parts[1:3]
+        groups.setdefault(" of ".join(parts), []).append(of_job)
+    return [f"failed: {job}, {len(group)} job{'s' * (len(group) > 1)}: {complaint([out / log for log in group[0]])} "
+            f"({group[0][0]})" for job, group in groups.items()]
 
 
 def without_page(names):

@@ -36,7 +36,7 @@ rule tradeoff:
     output: "tradeoff/{name}/tradeoff.json", "tradeoff/{name}/tradeoff.svg"
     params: version=VERSION, folder=subpath(output[0], parent=True), flags=f"--quick --res {config['res']}"
     log: "logs/tradeoff/{name}.log"
-    threads: workflow.cores
+    threads: config["cores"]
     resources: mem_mb=1000, runtime=60
     shell: f"{JOB} {SLOPEMIX} tradeoff {{input:q}} --out {{params.folder:q}} {{params.flags}}"
 
