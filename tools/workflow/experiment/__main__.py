@@ -30,19 +30,21 @@ def settings_of(parsed, settings, listed):
 
 
 def make(parsed, settings, target, lock):
-    """All that can be made. Returns whether that is all, the materials that it is not, and the logs of failed jobs."""
-    out = parsed.out.resolve()
-    write_settings(out, settings)
-    done, logs = engine.run(parsed, out, target, lock, say)
-    if done:
-        return True, set(), []
-    _, left_out = engine.unfinished(parsed, out, target)
-    if not left_out or left_out >= set(settings["names"]):
-        return False, left_out, logs
-    say(f"going on without {', '.join(sorted(left_out))}")
-    write_settings(out, settings, left_out)
-    folder.drop_pages(out, set(settings["names"]) - left_out)
-    return False, left_out, sorted({*logs, *engine.run(parsed, out, target, lock, say)[1]})
+    """All that can be made: what waits for every material is made without those that failed. Returns whether that is
+    all, the materials that it is not, and the logs of the jobs that failed."""
+    out, left_out, logs = parsed.out.resolve(), set(), set()
+    while True:
+        write_settings(out, settings, left_out)
+        folder.drop_pages(out, set(settings["names"]) - left_out)
+        done, failed = engine.run(parsed, out, target, lock, say)
+        logs |= failed
+        if done:
+            return not left_out, left_out, logs
+        more = engine.unfinished(parsed, out, "metrics")[1] or engine.unfinished(parsed, out, target)[1]
+        left_out |= more
+        if not more or left_out >= set(settings["names"]):
+            return False, left_out, logs
+        say(f"going on without {', '.join(sorted(more))}")
 
 
 def experiment(parsed, settings):
@@ -58,7 +60,6 @@ def experiment(parsed, settings):
         print(f"{engine.unfinished(parsed, parsed.out.resolve(), target)[0]} jobs to run")
         return 0
 
-    folder.drop_pages(parsed.out, settings["names"])
     done, left_out, logs = make(parsed, settings, target, lock)
     lines = report.missing(listed, parsed.only) + report.failed(parsed.out, logs) + report.without_page(left_out)
     if target != "pdf" and not parsed.until:
@@ -68,7 +69,7 @@ def experiment(parsed, settings):
     report.write(parsed.out, lines)
     if target != "metrics" and (parsed.out / "gallery" / "summary.json").exists():
         print(report.table(parsed.out))
-    print("\n".join(lines))
+    print("\n".join(report.shortened(lines)))
     print(f"{parsed.out}/report.txt")
     return 0 if done else 1
 

@@ -50,7 +50,7 @@ def run(arguments, out, target, lock, say):
                 shown = int(steps[3]) // 5
                 say(f"{steps[1]} of {steps[2]} jobs done")
         status = process.wait()
-    return status == 0, sorted({tuple(logs.split(", ")) for logs in LOG.findall("".join(said))})
+    return status == 0, {tuple(logs.split(", ")) for logs in LOG.findall("".join(said))}
 
 
 def unfinished(arguments, out, target):

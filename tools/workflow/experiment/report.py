@@ -13,14 +13,14 @@ def missing(listed, only):
 
 
 def complaint(logs):
-    """What the job said when it failed: slopemix's message, or else its last line, in the first log that it left."""
+    """What the job said when it failed: slopemix's first message, or else its last line, in the first log that it left."""
     left = next((log for log in logs if log.is_file()), None)
     if not left:
         return "it left no log"
     lines = [line.strip() for line in left.read_text(errors="replace").splitlines() if line.strip()]
-    messages = [line for line in lines if line.startswith("slopemix: ")] or [
+    messages = [line for line in lines if line.startswith("slopemix: ")][:1] or [
         line for line in lines if not line.startswith("status ")]
-    return (messages or lines or ["it said nothing"])[-1]
+    return messages[-1] if messages else "it said nothing"
 
 
 def failed(out, logs):
@@ -45,6 +45,14 @@ def took(out, seconds, cores):
              f"cost: {clock(cpu)} of one core, in {jobs} jobs, in all runs"]
     return lines + [f"cost: {stage['stage']}: {stage['jobs']} jobs, {clock(stage['cpu_seconds'])} of one core, "
                     f"at most {stage['max_rss_mb']} MB" for stage in stages]
+
+
+def shortened(lines, most=5):
+    """For a terminal: missing tables are counted where there are many."""
+    gone = [line for line in lines if line.startswith("missing: ")]
+    if len(gone) <= most:
+        return lines
+    return [f"missing: {len(gone)} tables of the catalogue; report.txt names them", *lines[len(gone):]]
 
 
 def write(out, lines):
