@@ -9,7 +9,8 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-const char *const commands[] = {"info", "synth", "fit", "render", "sheet", "budget", "tradeoff", "compare", "bench"};
+const char *const commands[] = {"info",  "materials", "synth",    "fit",     "render",
+                                "sheet", "budget",    "tradeoff", "compare", "bench"};
 
 Arguments render(const std::string &out) {
     return {"render",       "builtin:conductor",

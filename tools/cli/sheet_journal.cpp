@@ -22,13 +22,27 @@ void take_totals(const Json &totals, SheetResult &result) {
     totals.at("build_seconds").get_to(result.earlier_build_seconds);
 }
 
-// Of a whole sheet: the device too, and the files that it does not fit itself.
+Json digests_of(const std::vector<std::string> &files) {
+    Json digests = Json::array();
+    for (const std::string &file : files) digests.push_back(sha256_of_file(file));
+    return digests;
+}
+
+// Of a whole sheet: the device too, and the materials that it does not fit itself.
 Json settings_of(const SheetJob &job, const SheetResult &result) {
     Json settings = sheet_settings(job, result.material);
     settings["device"] = result.device;
-    settings["material_files"] = Json::array();
-    for (const std::string &file : job.fit_files) settings["material_files"].push_back(sha256_of_file(file));
+    settings["material_files"] = digests_of(job.fit_files);
     return settings;
+}
+
+// The same of a sheet.json.
+Json material_files_in(const Json &document) {
+    Json digests = Json::array();
+    for (const Json &fit : document.value("fits", Json::array()))
+        if (fit.is_object() && fit.value("material_sha256", Json()).is_string())
+            digests.push_back(fit["material_sha256"]);
+    return digests;
 }
 
 std::vector<fs::path> files_of(const SheetJob &job, const SheetPlan &plan) {
@@ -71,7 +85,8 @@ void SheetJournal::take_over(SheetResult &result) {
 
 void SheetJournal::require_complete(const Json &settings) {
     const fs::path file = job_.file("sheet.json");
-    const Json document = Journal::read_object(file);
+    Json document = Journal::read_object(file);
+    document["material_files"] = material_files_in(document);
     Journal::require_settings(file, document, settings);
     std::map<std::string, Json> digests;
     for (const Json &image : document.value("images", Json::array())) {
