@@ -10,10 +10,11 @@ ASSUMES = ("a reference sample costs what it did here, on average over the mater
 
 
 def time_of(out):
+    """The stages' rows, and one of all."""
     stages = stage_times(out)
-    return {"stages": stages, "jobs": sum(stage["jobs"] for stage in stages),
-            "job_seconds": round(sum(stage["seconds"] for stage in stages), 2),
-            "cpu_seconds": round(sum(stage["cpu_seconds"] for stage in stages), 2)}
+    return [*stages, {"stage": "all", **{key: round(sum(stage[key] for stage in stages), 2)
+                                         for key in ("jobs", "seconds", "cpu_seconds")},
+                      "max_rss_mb": max(stage["max_rss_mb"] for stage in stages)}]
 
 
 def extrapolation(metrics, threads):

@@ -5,11 +5,12 @@ DOMINATES = 1.5
 
 
 def split(budget):
-    """The parts under each model, means over the displaced surfaces. The inversion is measured by the shared model."""
+    """The parts under the per-lobe and the shared model, means over the displaced surfaces. The inversion is the shared
+    model's alone: the per-lobe one takes no more than its first alphas from it."""
     parts = {row["model"]: row for row in budget["mean"]}
     keys = ("fit", "widening", "total")
-    return {"inversion": parts["shared"]["inversion"], **{key: parts["per-lobe"][key] for key in keys},
-            "shared": {key: parts["shared"][key] for key in keys}}
+    return {**{key: parts["per-lobe"][key] for key in keys}, "inversion": parts["shared"]["inversion"],
+            **{f"shared_{key}": parts["shared"][key] for key in keys}}
 
 
 def reason(parts):
@@ -25,7 +26,7 @@ def reason(parts):
 
 def shared(parts):
     """What one curve for all lobes would leave, where that is less."""
-    return ("; one curve for all lobes leaves less" if parts["shared"]["fit"] < parts["fit"] else "")
+    return "; one curve for all lobes leaves less" if parts["shared_fit"] < parts["fit"] else ""
 
 
 def worst_entry(name, relrmse, budget):

@@ -54,17 +54,14 @@ def material_means(rows, measure):
 
 def described(rows):
     """Both measures' distributions over the materials of these rows, and who is worst."""
-    result = {}
-    for measure in MEASURES:
-        means = material_means(rows, measure)
-        result[measure] = distribution(means.values()) | {"worst_material": max(means, key=means.get)}
-    return result | {"materials": len(means)}
+    means = {measure: material_means(rows, measure) for measure in MEASURES}
+    return {"materials": len(means["relrmse"])} | {
+        measure: distribution(of.values()) | {"worst_material": max(of, key=of.get)} for measure, of in means.items()}
 
 
-def by_fit(rows):
-    """An entry per fit, in the order of the sheet's columns."""
-    return [{"fit": fit, "model": of_fit[0]["model"], "lobes": of_fit[0]["lobes"],
-             "widening_order": of_fit[0]["widening_order"]} | described(of_fit)
+def by_fit(rows, **of):
+    """An entry per fit, in the order of the sheet's columns; `of` says what the rows have in common."""
+    return [of | {"fit": fit} | described(of_fit)
             for fit, of_fit in grouped(sorted_by_fit(rows), lambda row: row["fit"]).items()]
 
 
@@ -73,8 +70,8 @@ def sorted_by_fit(rows):
 
 
 def by(rows, key, describe):
-    """An entry per value of a key, in its order, with its distributions by fit."""
-    return [describe(value) | {"models": by_fit(group)} for value, group in sorted(grouped(rows, key).items())]
+    """An entry per value of a key, in its order, and fit."""
+    return [entry for value, group in sorted(grouped(rows, key).items()) for entry in by_fit(group, **describe(value))]
 
 
 def best_fit(rows):

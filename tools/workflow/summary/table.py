@@ -15,8 +15,8 @@ def text(summary):
         lines += ["", f"{title:24s}" + "".join(f"{key:>9s}" for key in HEAD), *lines_of(summary["models"], measure)]
     lines += ["", f"The worst under {summary['worst_fit']}:"]
     lines += [f"  {entry['relrmse']:.3f}  {entry['material']}: {entry['reason']}" for entry in summary["worst"]]
-    whole = summary["extrapolation"]
-    lines += ["", f"{summary['time']['jobs']} jobs took {clock(summary['time']['cpu_seconds'])} of one core; the references "
+    everything, whole = summary["time"][-1], summary["extrapolation"]
+    lines += ["", f"{everything['jobs']} jobs took {clock(everything['cpu_seconds'])} of one core; the references "
               f"of {whole['materials']} materials with {whole['samples']} samples a pixel would take "
               f"{whole['core_hours']:.1f} core-hours"]
     return "\n".join(lines) + "\n"
