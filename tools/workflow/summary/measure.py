@@ -1,0 +1,73 @@
+"""A material's filtered images: relRMSE from sheet.json, and FLIP of the images as they are shown.
+
+    python -m summary.measure SHEET --to FILE.json [--pixels-per-degree P]
+
+FLIP (NVIDIA's flip-evaluator) compares what a viewer sees: the sRGB transfer of clip(exposure x linear) in 8 bits, with
+the light's exposure from sheet.json for both images and the blue background behind them, as in sheet.png. The figure is
+the mean of FLIP's error map over the sphere: the background is seen, but it is the same in both and would dilute the mean
+by a share that depends on the frame.
+"""
+import argparse
+import json
+import pathlib
+
+import flip_evaluator
+import numpy
+import OpenEXR
+
+from .files import write_text
+
+BACKGROUND = numpy.array([58, 110, 176]) / 255  # lib/png.cpp
+KEPT = ("id", "model", "lobes", "widening_order", "alpha_x", "alpha_y", "light_phi_deg", "relrmse")
+
+
+def read_exr(path):
+    """Float pixels [height][width][4]: R, G, B, A."""
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        channels = file.channels()
+        return numpy.stack([channels[name].pixels.astype(numpy.float32) for name in "RGBA"], axis=-1)
+
+
+def shown(linear, exposure):
+    """What slopemix's PNG shows of it, 0 to 1 in steps of 1/255 (IEC 61966-2-1)."""
+    clipped = numpy.clip(exposure * linear[..., :3].astype(numpy.float64), 0, 1)
+    srgb = numpy.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
+    alpha = numpy.clip(linear[..., 3:], 0, 1)
+    return (numpy.floor(255 * (srgb * alpha + BACKGROUND * (1 - alpha)) + 0.5) / 255).astype(numpy.float32)
+
+
+def flip(reference, image, exposure, pixels_per_degree):
+    """Mean of FLIP's map over the sphere's pixels."""
+    error_map, _, _ = flip_evaluator.evaluate(
+        shown(reference, exposure), shown(image, exposure), "LDR", inputsRGB=True, applyMagma=False,
+        computeMeanError=False, parameters={"ppd": pixels_per_degree})
+    return float(numpy.mean(error_map[..., 0][reference[..., 3] > 0]))
+
+
+def measure(folder, pixels_per_degree):
+    sheet = json.loads((folder / "sheet.json").read_text())
+    exposures = {entry["light_phi_deg"]: entry["exposure"] for entry in sheet["exposures"]}
+    scene = lambda image: (image["alpha_x"], image["alpha_y"], image["light_phi_deg"])
+    pixels = {image["id"]: read_exr(folder / f"{image['id']}.exr") for image in sheet["images"]
+              if image["integrator"] != "geometry"}
+    references = {scene(image): pixels[image["id"]] for image in sheet["images"] if image["integrator"] == "reference"}
+    images = [{key: image[key] for key in KEPT}
+              | {"flip": flip(references[scene(image)], pixels[image["id"]], exposures[image["light_phi_deg"]],
+                              pixels_per_degree)}
+              for image in sheet["images"] if image["integrator"] == "filtered"]
+    return {"material": sheet["material"], "resolution": sheet["resolution"], "pixels_per_degree": pixels_per_degree,
+            "reference_seconds": sheet["reference_seconds"],
+            "seconds_per_reference_sample": sheet["seconds_per_reference_sample"], "images": images}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="python -m summary.measure")
+    parser.add_argument("sheet", type=pathlib.Path)
+    parser.add_argument("--to", type=pathlib.Path, required=True)
+    parser.add_argument("--pixels-per-degree", type=float, default=67)
+    arguments = parser.parse_args()
+    write_text(arguments.to, json.dumps(measure(arguments.sheet, arguments.pixels_per_degree), indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
