@@ -41,6 +41,7 @@ RenderOptions to_cpp(const smx_render_options &o) {
     out.widening_tolerance = o.widening_tolerance;
     out.effects = o.effects;
     out.effect_tolerance = o.effect_tolerance;
+    out.scrambles = o.scrambles;
     out.errors = o.errors != 0;
     out.whole_table = o.whole_table != 0;
     if (o.exr_path) out.exr_path = o.exr_path;

@@ -26,14 +26,14 @@ struct PlannedAttempt {
 RenderReport integrate_to_target(const RenderOptions &options, IntegralTask &task, std::uint64_t lit,
                                  const std::function<PlannedAttempt(std::uint32_t spp)> &attempt) {
     return sample_to_target(options, lit, [&](std::uint32_t spp) -> Attempt {
-        task.plan = sampling_plan(task.displacement, options.sampler, spp);
+        task.plan = sampling_plan(task.displacement, options.sampler, spp, options.scrambles);
         const PlannedAttempt tried = attempt(spp);
         return {task.plan.samples(), tried.kernel_seconds, task.plan.scrambles > 1 ? tried.standard_error : -1.0};
     });
 }
 
 bool draws_about_wh(const Displacement &displacement, const RenderOptions &options) {
-    return sampling_plan(displacement, options.sampler, options.spp).passes.size() > 1;
+    return sampling_plan(displacement, options.sampler, options.spp, options.scrambles).passes.size() > 1;
 }
 
 // A reference leaves out only what it is told to: auto is all.

@@ -9,6 +9,7 @@ Attributes describe_reference(const Brdf &brdf, const Scene &scene, const Render
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
     attributes["slopemix.sampler"] = sampler_name(options.sampler);
     attributes["slopemix.spp"] = std::to_string(spp);
+    attributes["slopemix.scrambles"] = std::to_string(options.scrambles);
     attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.seed"] = std::to_string(options.seed);
     attributes["slopemix.lookup"] = options.lookup == Lookup::Nearest ? "nearest" : "linear";

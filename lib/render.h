@@ -29,6 +29,7 @@ struct RenderOptions {
     Lookup lookup = Lookup::Linear;
     double target_error = 0.0;         // 0: spp samples; else as many as bring the standard error of the image below it
     std::uint32_t most_spp = 1u << 24; // that a target_error may take
+    std::uint32_t scrambles = 8;       // independent, of a reference: its standard errors are of their spread
     bool errors = false;               // the reference's image carries its standard errors
     bool whole_table = false;          // the reference looks the table up in whole, not cut at the image's theta_d
     std::string exr_path;              // not empty: the image goes there as it comes, and none is returned

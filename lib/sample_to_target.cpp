@@ -24,7 +24,7 @@ std::uint32_t next_spp(std::uint32_t spp, double error, double target) {
 
 RenderReport sample_to_target(const RenderOptions &options, std::uint64_t lit,
                               const std::function<Attempt(std::uint32_t spp)> &attempt) {
-    constexpr std::uint32_t first_try = 64;
+    const std::uint32_t first_try = 8 * options.scrambles;
     const bool to_target = options.target_error > 0.0;
     RenderReport report;
     for (std::uint32_t spp = to_target ? first_try : options.spp;;) {

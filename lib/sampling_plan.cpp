@@ -10,9 +10,6 @@ namespace smx {
 
 namespace {
 
-// Enough for an error's error of a quarter, few enough to leave each its share of samples.
-constexpr std::uint32_t scramble_count = 8;
-
 std::uint32_t square_side(std::uint32_t spp) {
     return static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(spp))));
 }
@@ -22,7 +19,7 @@ Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
 }
 
 // Of samples that come in pairs at the most.
-std::uint32_t scrambles_of(std::uint32_t spp) { return spp % (2 * scramble_count) == 0 ? scramble_count : 1; }
+std::uint32_t scrambles_of(std::uint32_t spp, std::uint32_t wanted) { return spp % (2 * wanted) == 0 ? wanted : 1; }
 
 } // namespace
 
@@ -43,20 +40,22 @@ void validate(const RenderOptions &o) {
         require(side * side == o.spp, "spp is ", o.spp, "; the grid needs a square, such as ", side * side);
     }
     if (o.sampler == Sampler::Mis) require(o.spp % 2 == 0, "spp is ", o.spp, "; mis needs an even number");
+    require(o.scrambles == 8 || o.scrambles == 16 || o.scrambles == 32 || o.scrambles == 64, "scrambles is ",
+            o.scrambles, "; it must be 8, 16, 32 or 64");
     require(o.target_error >= 0.0 && o.target_error < 1.0, "target_error is ", o.target_error,
             "; it must be at least 0 and below 1");
     require(o.target_error == 0.0 || o.sampler != Sampler::Grid,
             "target_error needs the sampler sobol or mis: a grid has no estimate of its error");
     require(!o.errors || o.sampler != Sampler::Grid,
             "errors need the sampler sobol or mis: a grid has no estimate of its error");
-    require(!o.errors || o.target_error > 0.0 || o.spp % (2 * scramble_count) == 0, "spp is ", o.spp,
-            "; errors need a multiple of ", 2 * scramble_count);
+    require(!o.errors || o.target_error > 0.0 || o.spp % (2 * o.scrambles) == 0, "spp is ", o.spp,
+            "; errors need a multiple of ", 2 * o.scrambles);
 }
 
-SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp) {
+SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, std::uint32_t spp, std::uint32_t wanted) {
     const PrincipalAxes x = rough_principal_axes(displacement);
     if (x.var_1 == 0.0 && x.var_2 == 0.0) return {1, {grid(1, 1)}};
-    const std::uint32_t scrambles = sampler == Sampler::Grid ? 1 : scrambles_of(spp);
+    const std::uint32_t scrambles = sampler == Sampler::Grid ? 1 : scrambles_of(spp, wanted);
     const std::uint32_t samples = spp / scrambles;
     if (x.var_2 == 0.0) return {scrambles, {grid(samples, 1)}};
     if (x.var_1 == 0.0) return {scrambles, {grid(1, samples)}};
@@ -71,8 +70,8 @@ SamplingPlan sampling_plan(const Displacement &displacement, Sampler sampler, st
     return {1, {grid(square_side(spp), square_side(spp))}};
 }
 
-SamplingPlan uniform_plan(std::uint32_t spp) {
-    const std::uint32_t scrambles = scrambles_of(spp);
+SamplingPlan uniform_plan(std::uint32_t spp, std::uint32_t wanted) {
+    const std::uint32_t scrambles = scrambles_of(spp, wanted);
     return {scrambles, {{Drawing::Sobol, spp / scrambles}}};
 }
 

@@ -29,10 +29,11 @@ struct SamplingPlan {
 // Throws InvalidArgument, naming value and range.
 void validate(const RenderOptions &options);
 
-SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t spp);
+// `scrambles` of them where spp is a multiple of twice as many, else one.
+SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t spp, std::uint32_t scrambles);
 
 // Under a uniform light, whose samples are facets and directions at once: one pass, whatever X is.
-SamplingPlan uniform_plan(std::uint32_t spp);
+SamplingPlan uniform_plan(std::uint32_t spp, std::uint32_t scrambles);
 
 // A seed for each pass of each scramble, without relation between them.
 std::uint32_t pass_seed(std::uint64_t seed, std::uint32_t scramble, std::size_t pass);

@@ -91,7 +91,7 @@ Rendered render_uniform(Context &context, const Scene &scene, const Displacement
     task.scene.displacement = simulated;
     Attributes attributes;
     RenderReport report = sample_to_target(options, sphere_pixels(scene), [&](std::uint32_t spp) -> Attempt {
-        task.plan = uniform_plan(spp);
+        task.plan = uniform_plan(spp, options.scrambles);
         RowErrors seen(scene.height);
         attributes = image.describe(spp);
         canvas->begin(attributes);

@@ -158,6 +158,15 @@ static void check_options(void) {
     bad.sampler = SMX_SAMPLER_SOBOL;
     bad.spp = 1000;
     INVALID("1000", render(REFERENCE, &scene, &bad, &image, NULL));
+    bad.spp = 48; /* a multiple of 16 */
+    bad.scrambles = 16;
+    INVALID("multiple of 32", render(REFERENCE, &scene, &bad, &image, NULL));
+    for (k = 0; k < 5; ++k) {
+        static const uint32_t counts[] = {0, 1, 9, 24, 128};
+        bad = good;
+        bad.scrambles = counts[k];
+        INVALID("8, 16, 32 or 64", render(REFERENCE, &scene, &bad, &image, NULL));
+    }
     bad = good;
     bad.exr_path = "";
     for (which = 0; which < RENDERERS; ++which) INVALID("exr_path", render(which, &scene, &bad, NULL, NULL));

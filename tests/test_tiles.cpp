@@ -182,7 +182,7 @@ TEST(Tiles, PartsAreAllOfTheSamples) {
         for (const std::uint32_t spp : {4u, 16u, 64u, 144u, 1024u, 65536u, 1u << 20})
             for (const std::size_t items : {std::size_t{1}, std::size_t{4096}, std::size_t{1} << 18})
                 for (const std::uint32_t lanes : {1u, 4u, 16u}) {
-                    const smx::SamplingPlan plan = smx::sampling_plan(x, sampler, spp);
+                    const smx::SamplingPlan plan = smx::sampling_plan(x, sampler, spp, spp > 1000 ? 64 : 8);
                     const auto together = static_cast<std::int32_t>(smx::scrambles_per_vector(plan, lanes));
                     std::uint64_t facets = 0;
                     std::int32_t scramble = 0, first = 0;

@@ -71,7 +71,7 @@ typedef struct smx_render_options {
     smx_progress_fn progress; /**< or NULL */
     void *progress_user;      /**< what `progress` is given */
     int errors;      /**< nonzero: the image carries its standard errors (smx_image_errors); not with the grid, and
-                          spp, where it counts, must be a multiple of 16 */
+                          spp, where it counts, must be a multiple of 2 scrambles */
     int whole_table; /**< nonzero: each lookup is in the whole table, not in a slice that is cut for the image; slower,
                           and the same but for rounding */
     const char *exr_path;   /**< not NULL: the image is written to this EXR file as it comes, in bounded memory, and
@@ -90,12 +90,15 @@ typedef struct smx_render_options {
                                   for the statistical one, under a uniform light, and where there is no image
                                   (smx_material_eval), it is all */
     double effect_tolerance; /**< of SMX_EFFECTS_AUTO: relRMSE of the image without all that is left out, 0 <= it < 1 */
+    uint32_t scrambles;      /**< 8, 16, 32 or 64 independent ones that a reference's samples come in, and its standard
+                                errors      of: more make them more honest, and as many samples less even. Without an estimate
+                                where      spp is no multiple of twice as many */
 } smx_render_options;
 /** Defaults of smx_render_options. */
 #define SMX_RENDER_OPTIONS_INIT                                                                                \
     {                                                                                                          \
         sizeof(smx_render_options), SMX_SAMPLER_MIS, 65536, 0, SMX_LOOKUP_LINEAR, 0.0, NULL, NULL, 0, 0, NULL, \
-            SMX_GRADE_PRECISE, 0, 0.02, SMX_EFFECTS_AUTO, 1e-3                                                 \
+            SMX_GRADE_PRECISE, 0, 0.02, SMX_EFFECTS_AUTO, 1e-3, 8                                              \
     }
 
 /** What making an image took, and how good it is. */

@@ -109,6 +109,7 @@ void print_budget_json(const BudgetJob &job, const BudgetResult &result) {
     document["grade"] = word_for(flags.grade, grades);
     document["spp"] = flags.target_error > 0.0 ? Json() : Json(flags.spp);
     document["target_error"] = flags.target_error > 0.0 ? Json(flags.target_error) : Json();
+    document["scrambles"] = flags.scrambles;
     document["seed"] = flags.seed;
     document["device"] = result.device;
     document["seconds"] = result.seconds;

@@ -110,6 +110,9 @@ void add_sampling_flags(CLI::App &command, RenderFlags &flags) {
         "Instead of --spp: as many samples as bring the reference's standard error, relative to the image, below E" +
             default_error)
         ->type_name("E");
+    add_choice(command, "--scrambles", flags.scrambles, scramble_counts,
+               "Independent scrambles of the reference's samples, from which its standard error is: more make it more "
+               "honest, and the samples less even (default 8)");
     add_seed_flag(command, flags);
     add_device_flags(command, flags);
 }
@@ -189,9 +192,10 @@ void require_legal_sampling(const RenderFlags &flags) {
 void require_estimate(const RenderFlags &flags) {
     if (flags.sampler == SMX_SAMPLER_GRID)
         throw CLI::ValidationError("--errors", "the grid has no estimate of its error; use sobol or mis");
-    if (flags.target_error == 0.0 && flags.spp % 16 != 0)
-        throw CLI::ValidationError("--spp",
-                                   "'" + std::to_string(flags.spp) + "' is not a multiple of 16, which --errors needs");
+    const std::uint32_t step = 2 * flags.scrambles;
+    if (flags.target_error == 0.0 && flags.spp % step != 0)
+        throw CLI::ValidationError("--spp", "'" + std::to_string(flags.spp) + "' is not a multiple of " +
+                                                std::to_string(step) + ", which --errors needs");
 }
 
 } // namespace slopemix::cli

@@ -22,6 +22,7 @@ inline constexpr Choice<smx_sampler> samplers[] = {
 inline constexpr Choice<smx_lookup> lookups[] = {{"linear", SMX_LOOKUP_LINEAR}, {"nearest", SMX_LOOKUP_NEAREST}};
 inline constexpr Choice<smx_grade> grades[] = {
     {"fast", SMX_GRADE_FAST}, {"precise", SMX_GRADE_PRECISE}, {"double", SMX_GRADE_DOUBLE}};
+inline constexpr Choice<std::uint32_t> scramble_counts[] = {{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}};
 inline constexpr Choice<smx_masking> maskings[] = {{"correlated", SMX_G2_CORRELATED}, {"separable", SMX_G2_SEPARABLE}};
 
 // Adds an option that stores parse(text); what parse refuses is wrong usage. `target` must outlive the parsing.
@@ -78,6 +79,7 @@ struct RenderFlags {
     std::uint32_t spp = 65536;
     smx_sampler sampler = SMX_SAMPLER_MIS;
     double target_error = 0.0; // 0: spp samples
+    std::uint32_t scrambles = 8;
     std::uint64_t seed = 0;
     smx_lookup lookup = SMX_LOOKUP_LINEAR;
     smx_masking masking = SMX_G2_CORRELATED;

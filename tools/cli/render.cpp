@@ -77,7 +77,7 @@ void note_flags_without_effect(const CLI::App &command, const RenderJob &job) {
     }
     note(!job.is_filtered(), {"--lobes", "--model", "--widening-order", "--widening-tolerance", "--effect-tolerance"});
     note(!job.is_reference(), {"--sampler"});
-    note(job.is_geometric() || !job.is_sampled(), {"--target-error"});
+    note(job.is_geometric() || !job.is_sampled(), {"--target-error", "--scrambles"});
     note(!job.is_sampled(), {"--spp", "--seed", "--errors"});
     note(job.is_filtered(), {"--lookup"});
     note(job.is_geometric(), {"--g", "--grade"});
@@ -254,12 +254,15 @@ void add_render(CLI::App &app) {
     command->add_flag("--png", job->png, "Also write X.png: sRGB, the 99th percentile at 0.9");
     command->add_flag("--json", job->json, "Print JSON");
     command->footer(
-        "The flags of the reference (--spp, --target-error, --sampler, --seed, --lookup, --errors) have no effect on\n"
-        "filtered images, nor those of the fit (--lobes, --model) on the references. The geometric one takes --spp\n"
+        "The flags of the reference (--spp, --target-error, --sampler, --scrambles, --seed, --lookup, --errors) have "
+        "no\n"
+        "effect on filtered images, nor those of the fit (--lobes, --model) on the references. The geometric one takes "
+        "--spp\n"
         "(default 4096), --seed, --lookup and --errors too. Under a uniform light filtered images are sampled as "
         "well:\n"
-        "they take --spp (default 4096, also of the reference), --target-error, --seed and --errors; auto effects are\n"
-        "all, and --widening-order auto, --sampler grid, --max-error and --max-seconds are refused. A material file\n"
+        "they take --spp (default 4096, also of the reference), --target-error, --scrambles, --seed and --errors;\n"
+        "auto effects are all, and --widening-order auto, --sampler grid, --max-error and --max-seconds are refused. A "
+        "material file\n"
         "must hold what --lobes and --model ask for. Images of more than 2048 x 2048 pixels are written as they come, "
         "without being held in\n"
         "memory, unless --png asks for them.");

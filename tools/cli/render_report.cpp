@@ -55,6 +55,7 @@ Json configuration(const RenderJob &job, const Rendered &rendered) {
     json["spp"] = job.is_sampled() ? Json(rendered.rendering.report.spp) : Json();
     json["target_error"] = job.flags.target_error > 0.0 ? Json(job.flags.target_error) : Json();
     json["sampler"] = job.is_reference() ? Json(word_for(job.flags.sampler, samplers)) : Json();
+    json["scrambles"] = job.is_sampled() && !job.is_geometric() ? Json(job.flags.scrambles) : Json();
     json["seed"] = job.is_sampled() ? Json(job.flags.seed) : Json();
     json["lookup"] = job.is_filtered() ? Json() : Json(word_for(job.flags.lookup, lookups));
     json["device"] = rendered.device;

@@ -21,6 +21,7 @@ smx_render_options render_options(const RenderFlags &flags) {
     options.sampler = flags.sampler;
     options.spp = flags.spp;
     options.target_error = flags.target_error;
+    options.scrambles = flags.scrambles;
     options.seed = flags.seed;
     options.lookup = flags.lookup;
     options.grade = flags.grade;

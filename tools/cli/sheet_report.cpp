@@ -111,6 +111,7 @@ Json settings_json(const SheetJob &job) {
             {"spp", flags.target_error > 0.0 ? Json() : Json(flags.spp)},
             {"target_error", flags.target_error > 0.0 ? Json(flags.target_error) : Json()},
             {"sampler", word_for(flags.sampler, samplers)},
+            {"scrambles", flags.scrambles},
             {"seed", flags.seed},
             {"lookup", word_for(flags.lookup, lookups)},
             {"g", word_for(flags.masking, maskings)},

@@ -27,7 +27,9 @@ gallery.cursor = (() => {
   }
 
   function place(cursor) {
-    set({ cursor: inside(cursor) });
+    state.cursor = inside(cursor);
+    frame();
+    read();
   }
 
   function frame() {
@@ -85,5 +87,5 @@ gallery.cursor = (() => {
   });
   byId("canvas").addEventListener("pointermove", onPointer);
 
-  return { follow, move, frame };
+  return { follow, move };
 })();

@@ -79,7 +79,7 @@ gallery.exr = (() => {
     const data = await inflate(packed);
     for (let at = 1; at < data.length; ++at) data[at] += data[at - 1] - 128;
     const bytes = new Uint8Array(size);
-    const half = (size + 1) >> 1;
+    const half = size / 2; // even, as no channel has values of one byte
     for (let at = 0; at < size; ++at) bytes[at] = data[(at >> 1) + (at & 1) * half];
     return bytes;
   }

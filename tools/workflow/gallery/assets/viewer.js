@@ -32,7 +32,7 @@ gallery.viewer = (() => {
   function paint(image, reference) {
     const canvas = byId("canvas");
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    canvas.getContext("2d").putImageData(painted(image, reference), 0, 0);
+    canvas.getContext("2d", { willReadFrequently: true }).putImageData(painted(image, reference), 0, 0);
     canvas.dataset.drawn = `${gallery.state.image().id} ${gallery.state.view()}`;
   }
 
