@@ -1,4 +1,4 @@
-"""The experiment over two small tables and a damaged one: killed twice at random and resumed, run again, changed, fixed.
+"""The experiment over two small tables and a damaged one: killed twice at random, resumed, fixed, run again, changed.
 
     SOURCE=DIR SLOPEMIX=PROGRAM python3 test_experiment.py
 """
@@ -32,7 +32,7 @@ def results(experiment):
 
 
 def killed_after(experiment, jobs):
-    """Starts a run and kills it and its jobs a moment after so many more jobs are done. Returns the results that are there."""
+    """Starts a run and kills it and its jobs a moment after so many more are done. Returns the times that are there."""
     before, run = len(experiment.times("times/**/*.json")), experiment.start()
     deadline = time.monotonic() + BEGUN_SECONDS
     while len(experiment.times("times/**/*.json")) < before + jobs:
@@ -79,7 +79,7 @@ def check_refused(experiment):
 def check_damaged(experiment, said, status):
     report = experiment.report()
     expect(status == 1, "a damaged table makes the exit status 1", said)
-    expect("failed: fit of brass" in report and "left out: brass" in report, "the damaged table is in the report", report)
+    expect("failed: fit of brass" in report and "left out: brass" in report, "the report has the damaged table", report)
     expect("missing: nickel: there is no nickel.binary" in report, "so are tables that are missing", report)
     expect("failed: fit of gold-paint" not in report and report.count("left out:") == 1, "nothing else failed", report)
     file = experiment.out / "gallery" / "summary.json"
@@ -109,7 +109,8 @@ def check_again(experiment):
 def check_changed(experiment):
     before = results(experiment)
     changed = experiment.run("--seed", "1")
-    stages = {path.split("/")[1].removesuffix(".json") for path in redone(before, results(experiment)) if path.startswith("times")}
+    stages = {path.split("/")[1].removesuffix(".json") for path in redone(before, results(experiment))
+              if path.startswith("times/")}
     expect(changed.returncode == 0 and {"reference", "compare", "measure", "summarise", "page"} <= stages,
            f"another seed does anew what it changes: {sorted(stages)}", changed.stdout)
     expect("fit" not in stages, "and not the fits")
