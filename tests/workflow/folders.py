@@ -15,7 +15,7 @@ def skip(why):
 
 
 def workflow_python():
-    """The Python of the workflow's environment, which is made if it is missing; without a network the test is skipped."""
+    """The Python of the workflow's environment, made if it is missing; without a network the test is skipped."""
     made = subprocess.run([SOURCE / "tools" / "workflow" / "venv"], capture_output=True, text=True)
     if made.returncode:
         skip(f"there is no Python environment for the workflow:\n{made.stderr}")

@@ -1,7 +1,7 @@
-"""A Slurm of one node in a folder of its own: munged, slurmctld and slurmd, with their own key, socket, ports and state.
+"""A Slurm of one node in a folder: munged, slurmctld and slurmd, with a key, socket, ports and state of their own.
 
-It needs root, and Debian's munge, slurmctld, slurmd and slurm-client; no systemd, no cgroups, no accounting. Finished jobs
-are told by a text file.
+It needs root, and Debian's munge, slurmctld, slurmd and slurm-client; no systemd, no cgroups, no accounting. A text
+file tells of finished jobs.
 """
 import os
 import pathlib
@@ -131,7 +131,8 @@ class OneNodeSlurm:
             if ended:
                 break
             time.sleep(0.1)
-        logs = "".join(f"{log}:\n{log.read_text(errors='replace')[-1500:]}\n" for log in sorted(self.folder.glob("*.out")))
+        logs = "".join(f"{log}:\n{log.read_text(errors='replace')[-1500:]}\n"
+                       for log in sorted(self.folder.glob("*.out")))
         raise CannotStart(f"not so after {START_SECONDS} s: {what}\n{logs}")
 
     def finished_jobs(self):

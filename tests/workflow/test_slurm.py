@@ -13,7 +13,8 @@ from folders import SOURCE, Experiment, make_tables, skip, workflow_python
 from one_node_slurm import CannotStart, OneNodeSlurm
 
 FLAGS = ["--res", "16", "--spp", "16", "--shard", "sheet", "--until", "metrics"]
-QUICKLY = ["--profile", "slurm", "--", "--seconds-between-status-checks", "2", "--slurm-init-seconds-before-status-checks", "1"]
+QUICKLY = ["--profile", "slurm", "--", "--seconds-between-status-checks", "2",
+           "--slurm-init-seconds-before-status-checks", "1"]
 JOBS = 7  # three fits, references, filtered images, comparison, measures
 
 
@@ -46,7 +47,8 @@ def through_slurm(slurm, cluster):
 def planned(cluster, why):
     print(f"Slurm did not start here, the executor only plans: {why}")
     done = cluster.run("--dry-run", *QUICKLY)
-    expect(f"{JOBS + 1} jobs to run" in done.stdout, f"the executor planned the jobs, and the one that waits for them\n{done.stdout}")
+    expect(f"{JOBS + 1} jobs to run" in done.stdout,
+           f"the executor planned the jobs, and the one that waits for them\n{done.stdout}")
 
 
 def main():

@@ -59,7 +59,7 @@ class Distributions(unittest.TestCase):
     def test_groups(self):
         kinds = statistics.by(ROWS, lambda row: row["kind"], lambda kind: {"kind": kind})
         self.assertEqual([(entry["kind"], entry["fit"]) for entry in kinds], [
-            ("metal", "shared N = 1"), ("metal", "per-lobe N = 8"), ("paint", "shared N = 1"), ("paint", "per-lobe N = 8")])
+            (kind, fit) for kind in ("metal", "paint") for fit in ("shared N = 1", "per-lobe N = 8")])
         self.assertAlmostEqual(kinds[2]["relrmse"]["median"], 0.2)
         rough = statistics.by(ROWS, lambda row: row["roughness"], lambda name: {"roughness": name})
         self.assertEqual([entry["roughness"] for entry in rough], ["isotropic", "isotropic", "latitudinal"])
@@ -118,7 +118,8 @@ class Cost(unittest.TestCase):
                 {"stage": "all", "jobs": 3, "seconds": 4.5, "cpu_seconds": 11.25, "max_rss_mb": 70}])
 
     def test_clock(self):
-        self.assertEqual([times.clock(seconds) for seconds in (4.21, 60, 3723)], ["4.2 s", "1 min 00 s", "1 h 02 min 03 s"])
+        self.assertEqual([times.clock(seconds) for seconds in (4.21, 60, 3723)],
+                         ["4.2 s", "1 min 00 s", "1 h 02 min 03 s"])
 
 
 class Images(unittest.TestCase):
@@ -175,7 +176,8 @@ class Plans(unittest.TestCase):
     def test_flags(self):
         settings = {"res": 64, "spp": 0, "target_error": 0.01, "seed": 3, "radii": [0.1, 0.5], "lobes": [1, 8],
                     "widening_order": []}
-        self.assertEqual(sheet_flags(settings), "--res 64 --target-error 0.01 --seed 3 --radii 0.1,0.5 --lobes 1,8 --model both")
+        self.assertEqual(sheet_flags(settings),
+                         "--res 64 --target-error 0.01 --seed 3 --radii 0.1,0.5 --lobes 1,8 --model both")
 
 
 if __name__ == "__main__":

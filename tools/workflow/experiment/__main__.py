@@ -17,7 +17,8 @@ def target_of(until):
 
 
 def write_settings(out, settings, left_out=()):
-    folder.write_if_changed(out / "settings.json", json.dumps(settings | {"left_out": sorted(left_out)}, indent=2) + "\n")
+    text = json.dumps(settings | {"left_out": sorted(left_out)}, indent=2)
+    folder.write_if_changed(out / "settings.json", text + "\n")
 
 
 def settings_of(parsed, settings, listed):

@@ -9,9 +9,10 @@ import yaml
 
 DEFAULTS = pathlib.Path(__file__).parent.parent / "config.yaml"
 STAGES = ("metrics", "summary", "gallery", "pdf")
-DESCRIPTION = """Runs the whole experiment over a folder of MERL tables: of each material its fits, its sheet of images and
-their errors; then the summary over the materials and the gallery. The same command line goes on where it was
-interrupted; other settings compute anew what depends on them. Flags behind -- go to Snakemake. docs/experiment.md has more."""
+DESCRIPTION = """Runs the whole experiment over a folder of MERL tables: of each material its fits, its sheet of images
+and their errors; then the summary over the materials and the gallery. The same command line goes on where it was
+interrupted; other settings compute anew what depends on them. Flags behind -- go to Snakemake. docs/experiment.md has
+more."""
 
 
 def numbers(kind, low, high=float("inf")):
@@ -81,8 +82,9 @@ def parser_of(defaults):
     parser.add_argument("out", metavar="OUT", type=pathlib.Path, help="the experiment's folder")
     parser.add_argument("--cores", metavar="N", type=number(int, 1), default=os.cpu_count(),
                         help="cores to use on this machine (default all)")
-    parser.add_argument("--profile", metavar="NAME", help="a Snakemake profile, tools/workflow/profiles/NAME or a folder: "
-                        "jobs go where it says, `slurm` to a Slurm cluster")
+    parser.add_argument("--profile", metavar="NAME",
+                        help="a Snakemake profile, tools/workflow/profiles/NAME or a folder: jobs go where it says, "
+                        "`slurm` to a Slurm cluster")
     parser.add_argument("--only", metavar="NAME,...", type=names, help="only these materials")
     parser.add_argument("--until", choices=STAGES, help="stop at this stage (default pdf where there is a chromium)")
     parser.add_argument("--dry-run", action="store_true", help="say how many jobs there are to run, and run none")

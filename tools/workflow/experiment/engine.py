@@ -29,13 +29,15 @@ def place(arguments):
 def command(arguments, out, target):
     """Whose jobs are done stays done: what was begun and not finished is begun again, what changed in settings, inputs
     or version is made anew. Snakemake's own locks are left alone, ours does what they do and goes with its process."""
-    return [sys.executable, "-m", "snakemake", target, "--snakefile", str(WORKFLOW / "Snakefile"), "--directory", str(out),
-            "--configfile", str(out / "settings.json"), "--keep-going", "--rerun-incomplete", "--nolock",
-            "--rerun-triggers", "mtime", "params", "input", "--scheduler", "greedy", *place(arguments), *arguments.snakemake]
+    return [sys.executable, "-m", "snakemake", target, "--snakefile", str(WORKFLOW / "Snakefile"),
+            "--directory", str(out), "--configfile", str(out / "settings.json"), "--keep-going", "--rerun-incomplete",
+            "--nolock", "--rerun-triggers", "mtime", "params", "input", "--scheduler", "greedy", *place(arguments),
+            *arguments.snakemake]
 
 
 def run(arguments, out, target, lock, say):
-    """Whether all jobs are done, and for each that failed its logs, a cluster's own last. What Snakemake says goes to OUT/logs/snakemake.log."""
+    """Whether all jobs are done, and for each that failed its logs, a cluster's own last. What Snakemake says goes to
+    OUT/logs/snakemake.log."""
     (out / "logs").mkdir(exist_ok=True)
     said, shown = [], -1
     with open(out / "logs" / "snakemake.log", "w") as log:

@@ -17,7 +17,7 @@ def lock(out):
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise Refused(f"{out} is in use by another run; wait for its end, or give this one a folder of its own") from None
+        raise Refused(f"{out} is in use by another run; wait for its end, or name another folder") from None
     return descriptor
 
 

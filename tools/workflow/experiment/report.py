@@ -13,7 +13,7 @@ def missing(listed, only):
 
 
 def complaint(logs):
-    """What the job said when it failed: slopemix's first message, or else its last line, in the first log that it left."""
+    """What the job said when it failed: slopemix's first message, else its last line, in the first log that it left."""
     left = next((log for log in logs if log.is_file()), None)
     if not left:
         return "it left no log"

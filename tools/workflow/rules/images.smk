@@ -43,7 +43,9 @@ rule reference:
     log: f"logs/reference/{{name}}/{job_name(REFERENCE_SHARD)}.log"
     threads: config["threads"]
     resources: mem_mb=400, runtime=60
-    shell: f"{JOB} {SLOPEMIX} sheet {{input:q}} --out sheets/{{wildcards.name:q}} {{params.flags}} --only {{params.only}}"
+    shell:
+        f"{JOB} {SLOPEMIX} sheet {{input:q}} --out sheets/{{wildcards.name:q}} {{params.flags}} "
+        "--only {params.only}"
 
 rule filtered:
     input: table=table, fits=fitted

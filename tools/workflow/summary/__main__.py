@@ -1,4 +1,4 @@
-"""Writes OUT/gallery/summary.json, summary.csv, images.csv and charts/ of what OUT/metrics, OUT/budget and OUT/times hold.
+"""Writes OUT/gallery/summary.json, summary.csv, images.csv and charts/, of OUT/metrics, OUT/budget and OUT/times.
 
     python -m summary OUT [--only NAME,...]
 """

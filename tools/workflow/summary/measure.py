@@ -4,8 +4,8 @@
 
 FLIP (NVIDIA's flip-evaluator) compares what a viewer sees: the sRGB transfer of clip(exposure x linear) in 8 bits, with
 the light's exposure from sheet.json for both images and the blue background behind them, as in sheet.png. The figure is
-the mean of FLIP's error map over the sphere: the background is seen, but it is the same in both and would dilute the mean
-by a share that depends on the frame.
+the mean of FLIP's error map over the sphere: the background is seen, but it is the same in both and would dilute the
+mean by a share that depends on the frame.
 """
 import argparse
 import json

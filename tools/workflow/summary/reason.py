@@ -18,7 +18,7 @@ def reason(parts):
     fit, widening = parts["fit"], parts["widening"]
     figures = f"fit {fit:.3f}, widening {widening:.3f}"
     if fit >= DOMINATES * widening:
-        return f"the fit dominates ({figures}): the lobes and their curves do not have the table's values" + shared(parts)
+        return f"the fit dominates ({figures}): lobes and curves do not have the table's values" + shared(parts)
     if widening >= DOMINATES * fit:
         return f"the widening dominates ({figures}): a higher widening order takes it away"
     return f"fit and widening are alike ({figures})"

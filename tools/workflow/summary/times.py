@@ -18,7 +18,7 @@ def jobs_of(out):
 
 
 def stage_times(out):
-    """A row per stage: jobs, seconds by the clock and of processors, both summed over the jobs, and the peak of memory."""
+    """A row per stage: jobs, seconds by the clock and of processors, both summed over the jobs, peak of memory."""
     stages = {}
     for stage, took in jobs_of(out):
         row = stages.setdefault(stage, {"stage": stage, "jobs": 0, "seconds": 0.0, "cpu_seconds": 0.0, "max_rss_mb": 0})
