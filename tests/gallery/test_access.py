@@ -18,6 +18,7 @@ def in_viewer(key):
         page.wait_for_function("document.getElementById('canvas').dataset.drawn")
         page.keyboard.press(key)
         page.wait_for_timeout(50)
+
     return act
 
 
