@@ -28,8 +28,9 @@ class BrowserCase(unittest.TestCase):
         self.complaints = []
 
     def open(self, page_name: str, viewport=LAPTOP, scheme="light", javascript=True) -> Page:
-        context = chromium().new_context(viewport=viewport, color_scheme=scheme, java_script_enabled=javascript,
-                                         accept_downloads=True)
+        context = chromium().new_context(
+            viewport=viewport, color_scheme=scheme, java_script_enabled=javascript, accept_downloads=True
+        )
         self.addCleanup(context.close)
         page = context.new_page()
         page.set_default_timeout(10_000)
@@ -53,5 +54,6 @@ def drawn(page: Page, what: str) -> numpy.ndarray:
     page.wait_for_function("what => document.getElementById('canvas').dataset.drawn === what", arg=what)
     values = page.evaluate(
         "() => { const c = document.getElementById('canvas');"
-        " return [c.height, c.width, [...c.getContext('2d').getImageData(0, 0, c.width, c.height).data]]; }")
+        " return [c.height, c.width, [...c.getContext('2d').getImageData(0, 0, c.width, c.height).data]]; }"
+    )
     return numpy.array(values[2], numpy.uint8).reshape(values[0], values[1], 4)

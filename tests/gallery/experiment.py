@@ -1,4 +1,4 @@
-"""A small experiment, and its gallery: two materials with sheets of 16 x 16 pixels, and two of the catalogue without."""
+"""A small experiment, and its gallery: two materials with sheets of 16 x 16 pixels, and two without."""
 
 import atexit
 import functools
@@ -49,12 +49,33 @@ def out() -> Path:
     for name in (BOTH, BARE):
         slopemix("sheet", f"builtin:{name}", "--out", folder / "sheets" / name, *SHEET)
     for model, lobes in (("shared", 1), ("per-lobe", 2)):
-        slopemix("fit", f"builtin:{BOTH}", "--model", model, "--lobes", lobes, "--plot",
-                 "--out", folder / "fits" / BOTH / f"{model}-{lobes}")
-    budget = slopemix("budget", f"builtin:{BOTH}", "--res", 16, "--alpha", "0.25,0.25", "--lobes", 2, "--spp", 64, "--json")
+        slopemix(
+            "fit",
+            f"builtin:{BOTH}",
+            "--model",
+            model,
+            "--lobes",
+            lobes,
+            "--plot",
+            "--out",
+            folder / "fits" / BOTH / f"{model}-{lobes}",
+        )
+    budget = slopemix(
+        "budget", f"builtin:{BOTH}", "--res", 16, "--alpha", "0.25,0.25", "--lobes", 2, "--spp", 64, "--json"
+    )
     write(folder / "budget" / f"{BOTH}.json", budget)
-    write(folder / "metrics" / f"{BOTH}.json", json.dumps({"images": [
-        {"id": image["id"], "flip": image["relrmse"] / 2} for image in sheet(BOTH)["images"] if "relrmse" in image]}))
+    write(
+        folder / "metrics" / f"{BOTH}.json",
+        json.dumps(
+            {
+                "images": [
+                    {"id": image["id"], "flip": image["relrmse"] / 2}
+                    for image in sheet(BOTH)["images"]
+                    if "relrmse" in image
+                ]
+            }
+        ),
+    )
     write(folder / "materials.json", json.dumps(MATERIALS))
     write(folder / "gallery" / "summary.json", json.dumps(SUMMARY))
     return folder

@@ -18,6 +18,7 @@ def in_viewer(key):
         page.wait_for_function("document.getElementById('canvas').dataset.drawn")
         page.keyboard.press(key)
         page.wait_for_timeout(50)
+
     return act
 
 
@@ -34,14 +35,16 @@ VIEWS = {
 class Access(BrowserCase):
     def test_axe_finds_nothing(self):
         for name, (address, act) in VIEWS.items():
+            page = self.open(address, PHONE)
+            if act:
+                act(page)
             for scheme, viewport in (("light", PHONE), ("dark", WIDE)):
                 with self.subTest(name, scheme=scheme, width=viewport["width"]):
-                    page = self.open(address, viewport, scheme)
-                    if act:
-                        act(page)
+                    page.set_viewport_size(viewport)
+                    page.emulate_media(color_scheme=scheme)
                     found = Axe().run(page, options={"preload": False})  # style sheets of files cannot be fetched
                     self.assertEqual(found.violations_count, 0, found.generate_report())
-                    page.context.close()
+            page.context.close()
 
     def test_the_first_key_skips_to_the_content(self):
         page = self.open("index.html")

@@ -1,4 +1,4 @@
-"""The gallery's files: EXR decoded in the browser, PNG as the command's, the same bytes each time, the PDF, messages."""
+"""The gallery's files: EXR decoded in the browser, PNG as the command's, the same bytes again, the PDF, messages."""
 
 import base64
 import json
@@ -45,20 +45,35 @@ class Exrs(BrowserCase):
         page = self.open(f"{BOTH}.html")
         for content, words in ((bytes(64), "not an EXR file"), (self.stored(), "compression 0")):
             text = base64.b64encode(content).decode()
-            message = page.evaluate("async text => { try { await (" + DECODE + ")(text); } catch (e) { return e.message; } }", text)
+            message = page.evaluate(
+                "async text => { try { await (" + DECODE + ")(text); } catch (e) { return e.message; } }", text
+            )
             self.assertIn(words, message)
 
     def stored(self):
         content = small_exr(noise(4, 4, 1))
         at = content.index(b"compression\0compression\0") + 24 + 4
-        return content[:at] + b"\0" + content[at + 1:]
+        return content[:at] + b"\0" + content[at + 1 :]
 
 
 class Pictures(unittest.TestCase):
     def test_png_is_what_the_command_writes(self):
         path = scratch() / "rendered.exr"
-        slopemix("render", f"builtin:{BOTH}", "--integrator", "filtered", "--alpha", "0.25,0.25", "--light", "90",
-                 "--res", "40", "--out", path, "--png")
+        slopemix(
+            "render",
+            f"builtin:{BOTH}",
+            "--integrator",
+            "filtered",
+            "--alpha",
+            "0.25,0.25",
+            "--light",
+            "90",
+            "--res",
+            "40",
+            "--out",
+            path,
+            "--png",
+        )
         rgba = read_exr(path).rgba
         pixels = display_pixels(rgba, exposure_for(bright_value(rgba)))
         numpy.testing.assert_array_equal(pixels, numpy.asarray(Image.open(path.with_suffix(".png")).convert("RGB")))
@@ -68,8 +83,9 @@ class Pictures(unittest.TestCase):
         exposures = {item["light_phi_deg"]: item["exposure"] for item in document["exposures"]}
         for image in document["images"]:
             if image["light_phi_deg"] is not None:
-                wanted = display_pixels(read_exr(out() / "sheets" / BOTH / f"{image['id']}.exr").rgba,
-                                        exposures[image["light_phi_deg"]])
+                wanted = display_pixels(
+                    read_exr(out() / "sheets" / BOTH / f"{image['id']}.exr").rgba, exposures[image["light_phi_deg"]]
+                )
                 given = numpy.asarray(Image.open(site() / "images" / BOTH / f"{image['id']}.png"))
                 numpy.testing.assert_array_equal(given, wanted, image["id"])
 
@@ -103,7 +119,10 @@ class Stages(unittest.TestCase):
         self.assertIn("no summary yet", (bare / "gallery" / "summary.html").read_text())
 
     def test_messages(self):
-        for arguments, words in ((["--page", "gold"], "no material is called gold"), (["--page", "brass"], "sheet.json")):
+        for arguments, words in (
+            (["--page", "gold"], "no material is called gold"),
+            (["--page", "brass"], "sheet.json"),
+        ):
             done = gallery(out(), *arguments)
             self.assertEqual(done.returncode, 1)
             self.assertIn(words, done.stderr)
@@ -136,8 +155,9 @@ class Pdf(unittest.TestCase):
     def test_the_index_leads_to_the_leaves(self):
         reader = PdfReader(site() / "gallery.pdf")
         links = [annotation.get_object() for annotation in reader.pages[0]["/Annots"]]
-        self.assertEqual({link["/Dest"][0].idnum for link in links},
-                         {reader.pages[at].indirect_reference.idnum for at in (2, 3)})
+        self.assertEqual(
+            {link["/Dest"][0].idnum for link in links}, {reader.pages[at].indirect_reference.idnum for at in (2, 3)}
+        )
         self.assertNotIn(b"file:", b"".join(str(page.get("/Annots", "")).encode() for page in reader.pages))
 
 

@@ -7,7 +7,9 @@ from experiment import BARE, BOTH, sheet
 
 
 def names(page, container: str) -> list[str]:
-    return page.evaluate(f"[...document.querySelectorAll('{container}')].filter(i => !i.hidden).map(i => i.dataset.name)")
+    return page.evaluate(
+        f"[...document.querySelectorAll('{container}')].filter(i => !i.hidden).map(i => i.dataset.name)"
+    )
 
 
 class Index(BrowserCase):
@@ -24,9 +26,14 @@ class Index(BrowserCase):
         page = self.open("index.html")
         for fit in sheet(BOTH)["summary"]:
             key = f"{fit['model']}-{fit['lobes']}"
-            errors = {name: next(item["mean_relrmse"] for item in sheet(name)["summary"]
-                                 if (item["model"], item["lobes"]) == (fit["model"], fit["lobes"]))
-                      for name in (BOTH, BARE)}
+            errors = {
+                name: next(
+                    item["mean_relrmse"]
+                    for item in sheet(name)["summary"]
+                    if (item["model"], item["lobes"]) == (fit["model"], fit["lobes"])
+                )
+                for name in (BOTH, BARE)
+            }
             with self.subTest(key):
                 page.locator("#sort").select_option(key)
                 page.locator("#direction").select_option("1")
@@ -83,7 +90,9 @@ class Index(BrowserCase):
 
     def test_thumbnails_decode_and_lead_to_the_page(self):
         page = self.open("index.html")
-        widths = page.evaluate("Promise.all([...document.querySelectorAll('.tiles img')].map(i => i.decode().then(() => i.naturalWidth)))")
+        widths = page.evaluate(
+            "Promise.all([...document.querySelectorAll('.tiles img')].map(i => i.decode().then(() => i.naturalWidth)))"
+        )
         self.assertEqual(widths, [16] * 8)
         page.locator(f".tiles li[data-name='{BOTH}'] a").click()
         self.assertEqual(page.locator("h1").inner_text(), BOTH)

@@ -20,9 +20,10 @@ class Pages(BrowserCase):
 
     def test_no_page_is_wider_than_its_window(self):
         for name in PAGES:
+            page = self.open(name)
             for viewport in (PHONE, WIDE):
                 with self.subTest(name, width=viewport["width"]):
-                    page = self.open(name, viewport)
+                    page.set_viewport_size(viewport)
                     self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), viewport["width"])
 
     def test_every_image_of_the_sheet_decodes(self):
@@ -30,7 +31,9 @@ class Pages(BrowserCase):
             with self.subTest(javascript=javascript):
                 page = self.open(f"{BOTH}.html", javascript=javascript)
                 images = page.evaluate(
-                    "[...document.querySelectorAll('.sheet img')].map(i => [i.complete, i.naturalWidth, i.alt.split(':')[0]])")
+                    "[...document.querySelectorAll('.sheet img')].map("
+                    "i => [i.complete, i.naturalWidth, i.alt.split(':')[0]])"
+                )
                 self.assertEqual(len(images), ROWS * COLUMNS)
                 self.assertTrue(all(complete and width == 16 for complete, width, _ in images))
                 self.assertEqual({id for _, _, id in images}, {image["id"] for image in sheet(BOTH)["images"]})
@@ -39,7 +42,8 @@ class Pages(BrowserCase):
         page = self.open(f"{BOTH}.html")
         placed = page.evaluate(
             "[...document.querySelectorAll('table.sheet')].map(t => [...t.tBodies[0].rows].map("
-            "r => [...r.querySelectorAll('.id')].map(i => i.textContent)))")
+            "r => [...r.querySelectorAll('.id')].map(i => i.textContent)))"
+        )
         wanted = [[[f"{t}.{r}.{c}" for c in range(1, COLUMNS + 1)] for r in (1, 2, 3)] for t in (1, 2, 3)]
         self.assertEqual(placed, wanted)
 

@@ -11,7 +11,7 @@ import numpy
 from PIL import Image
 
 from browser import PHONE, BrowserCase, drawn
-from experiment import BOTH, out, sheet
+from experiment import BOTH, out, sheet, site
 from gallery.image import display_pixels, read_exr
 
 REFERENCE, ONE, EIGHT, PER_LOBE = "1.2.5", "1.2.6", "1.2.7", "1.2.12"
@@ -101,8 +101,10 @@ class Images(ViewerCase):
         for scale in ("0.5", "2"):
             page.locator("#range").select_option(scale)
             page.focus("#canvas")
-            for key, view, place in (("d", "signed", (off.mean(axis=-1) / float(scale) + 1) / 2),
-                                     ("a", "absolute", numpy.sqrt((off**2).mean(axis=-1)) / float(scale))):
+            for key, view, place in (
+                ("d", "signed", (off.mean(axis=-1) / float(scale) + 1) / 2),
+                ("a", "absolute", numpy.sqrt((off**2).mean(axis=-1)) / float(scale)),
+            ):
                 page.keyboard.press(key)
                 pixels = drawn(page, f"{ONE} {view}")
                 self.expect_colours(pixels, place, {"signed": "RdBu_r", "absolute": "magma"}[view], sphere)
@@ -117,7 +119,8 @@ class Images(ViewerCase):
     def test_the_absolute_difference_has_the_images_relrmse(self):
         page = self.view(EIGHT)
         drawn(page, f"{EIGHT} image")
-        measured = page.evaluate("""async ([a, b]) => {
+        measured = page.evaluate(
+            """async ([a, b]) => {
             const { sheet } = gallery.state;
             const [image, reference] = await Promise.all([a, b].map((id) =>
                 gallery.pixels.get(sheet.material, sheet.images.find((item) => item.id === id))));
@@ -129,7 +132,9 @@ class Images(ViewerCase):
                 ++count;
             }
             return Math.sqrt(sum / count);
-        }""", [EIGHT, REFERENCE])
+        }""",
+            [EIGHT, REFERENCE],
+        )
         entry = next(image for image in sheet(BOTH)["images"] if image["id"] == EIGHT)
         self.assertAlmostEqual(measured, entry["relrmse"], delta=1e-3)  # what half precision leaves
         self.assertIn(f"relRMSE {entry['relrmse']:.4f}", page.locator("#viewer-figures").inner_text())
@@ -184,7 +189,7 @@ class Controls(ViewerCase):
         numpy.testing.assert_allclose(numpy.array(reference, float), linear(REFERENCE)[y, x, :3], rtol=5e-4)
 
     def test_zoom_is_by_whole_pixels(self):
-        page = self.view()
+        page = self.view(viewport=PHONE)
         drawn(page, f"{ONE} image")
         self.assertEqual(page.locator("#canvas").evaluate("c => getComputedStyle(c).imageRendering"), "pixelated")
         page.click("#zoom-fit")
@@ -209,7 +214,7 @@ class Controls(ViewerCase):
             self.assertTrue(0 <= box["x"] and box["x"] + box["width"] <= PHONE["width"], control)
 
     def test_missing_data_is_told(self):
-        row = out() / "gallery" / "data" / BOTH / "3.3.js"
+        row = site() / "data" / BOTH / "3.3.js"
         away = row.with_suffix(".away")
         row.rename(away)
         self.addCleanup(away.rename, row)
@@ -255,10 +260,12 @@ class Downloads(ViewerCase):
     def test_links_of_the_page(self):
         page = self.open(f"{BOTH}.html")
         for link in page.locator("a[download]").all():
-            path = out() / "gallery" / link.get_attribute("href")
+            path = site() / link.get_attribute("href")
             self.assertGreater(path.stat().st_size, 100)
-        self.assertEqual(json.loads((out() / "gallery/data" / BOTH / "per-lobe-2.json").read_text()),
-                         json.loads((out() / "fits" / BOTH / "per-lobe-2" / f"{BOTH}.json").read_text()))
+        self.assertEqual(
+            json.loads((site() / "data" / BOTH / "per-lobe-2.json").read_text()),
+            json.loads((out() / "fits" / BOTH / "per-lobe-2" / f"{BOTH}.json").read_text()),
+        )
 
 
 if __name__ == "__main__":

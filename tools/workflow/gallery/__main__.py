@@ -1,7 +1,8 @@
 """Builds the gallery of an experiment's folder.
 
 Without --page, --index, --summary or --pdf all of it is built, one after the other. A workflow calls the stages by
-themselves: pages side by side, then the others. Parts of the folder that are not there are left out, and the pages say so.
+themselves: pages side by side, then the others. Parts of the folder that are not there are left out, and the pages
+say so.
 """
 
 import argparse
@@ -33,8 +34,9 @@ def main() -> int:
 
 
 def parse_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m gallery", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m gallery", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("out", type=Path, metavar="OUT", help="the experiment's folder")
     parser.add_argument("--to", type=Path, metavar="DIR", help="where the gallery goes (default OUT/gallery)")
     parser.add_argument("--only", type=names, metavar="NAME,...", help="only these materials")
@@ -61,7 +63,9 @@ def chosen(materials: list[Material], wanted: list[str] | None) -> list[Material
 def make_all(out: Path, to: Path, materials: list[Material]) -> None:
     from .pdf import chromium
 
-    make_pages(out, to, [material for material in materials if (out / "sheets" / material.name / "sheet.json").is_file()])
+    make_pages(
+        out, to, [material for material in materials if (out / "sheets" / material.name / "sheet.json").is_file()]
+    )
     make_index(out, to, materials)
     make_summary(out, to, materials)
     if chromium():

@@ -1,4 +1,4 @@
-"""The materials of an experiment, from OUT/materials.json: in the catalogue's order, then those that it does not number."""
+"""The materials of an experiment, from OUT/materials.json: in the catalogue's order, then those without a number."""
 
 import json
 from dataclasses import dataclass

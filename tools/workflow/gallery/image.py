@@ -1,4 +1,4 @@
-"""EXR images of a sheet: their pixels, small EXR files of the same, and PNG files as `slopemix render --png` shows them.
+"""EXR images of a sheet: their pixels, small EXR files of them, and PNG files as `slopemix render --png` writes.
 
 An image is float32 of shape (height, width, 4): linear R, G, B and alpha, which is 0 off the sphere.
 """

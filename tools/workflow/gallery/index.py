@@ -30,8 +30,9 @@ class IndexEntry:
         lights = self.sheet.lights
         light = THUMBNAIL_LIGHT if THUMBNAIL_LIGHT in lights else lights[0] if lights else None
         row = rows[len(rows) // 2] if rows else None
-        found = [image for image in self.sheet.images.values()
-                 if (image.table, image.row, image.light) == (1, row, light)]
+        found = [
+            image for image in self.sheet.images.values() if (image.table, image.row, image.light) == (1, row, light)
+        ]
         order = ["reference", *(fit.key for fit in self.sheet.fits)]
         return sorted(found, key=lambda image: order.index(image.shows))
 
@@ -43,7 +44,10 @@ def write_index(out: Path, to: Path, materials: list[Material]) -> None:
     fits = sorted({fit for entry in entries for fit in entry.sheet.fits}, key=in_order)
     flips = any(error.flip is not None for entry in entries for error in entry.errors.values())
     kinds = sorted({material.kind for material in materials})
-    write_text(to / "index.html", render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=True))
+    write_text(
+        to / "index.html",
+        render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=True),
+    )
     write_assets(to)
 
 

@@ -49,7 +49,9 @@ def read_fit(file: Path) -> MaterialFit:
     colours = [mean_colour(document["theta_d"], curve) for curve in document["fresnel"]]
     if len(colours) == 1:
         colours *= len(document["lobes"])
-    lobes = [Lobe(lobe["alpha"], lobe["weight"], colour) for lobe, colour in zip(document["lobes"], colours, strict=True)]
+    lobes = [
+        Lobe(lobe["alpha"], lobe["weight"], colour) for lobe, colour in zip(document["lobes"], colours, strict=True)
+    ]
     plot = file.with_suffix(".svg")
     return MaterialFit(file.parent.name, document["model"], lobes, file, plot if plot.is_file() else None, document)
 

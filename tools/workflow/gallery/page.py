@@ -13,6 +13,10 @@ from .plots import copy_plot
 from .sheet import TABLES, Sheet, light_label, light_name
 from .templates import render
 
+BUDGET_PARTS = {"shared": ("inversion", "fit", "widening", "total"), "per-lobe": ("fit", "widening", "total")}
+PAPER_IMAGE = 19.6  # millimetres
+PAPER_TABLE = 255.0  # the images of a row
+
 
 def write_page(out: Path, to: Path, material: Material) -> None:
     """Raises an OSError where the sheet is not whole."""
@@ -26,10 +30,10 @@ def write_page(out: Path, to: Path, material: Material) -> None:
         sheet=sheet,
         tables=TABLES,
         groups=column_groups(sheet),
-        sizes=image_sizes(sheet.document["resolution"]),
+        sizes=image_sizes(sheet.document["resolution"][0], len(sheet.columns)),
         errors=fit_errors(sheet),
         fits=[(fit, *copy_fit(fit, material.name, to)) for fit in fits],
-        budget=read_json(out / "budget" / f"{material.name}.json"),
+        **budget_values(out / "budget" / f"{material.name}.json"),
         tradeoff=copy_tradeoff(out, material.name, to),
         data=viewer_data(sheet, material, exposures),
         light_label=light_label,
@@ -52,12 +56,13 @@ def column_groups(sheet: Sheet) -> list[tuple[str, list[tuple[int, str]]]]:
     return list(groups.items())
 
 
-def image_sizes(resolution: list[int]) -> dict[str, int]:
-    """Widths in CSS pixels, on narrow, middling and wide windows: whole multiples of small images' pixels."""
-    width = resolution[0]
+def image_sizes(width: int, columns: int) -> dict[str, float]:
+    """Widths in CSS pixels, on narrow, middling and wide windows: whole multiples of small images' pixels. On paper, in
+    millimetres, what leaves room for the figures beside the tables."""
+    paper = {"paper": round(min(PAPER_IMAGE, PAPER_TABLE / columns), 2)}
     if width > 72:
-        return {"narrow": 72, "middle": min(width, 88), "wide": min(width, 128)}
-    return {"narrow": width * (72 // width), "middle": width * (88 // width), "wide": width * (128 // width)}
+        return {"narrow": 72, "middle": min(width, 88), "wide": min(width, 128)} | paper
+    return {"narrow": width * (72 // width), "middle": width * (88 // width), "wide": width * (128 // width)} | paper
 
 
 def viewer_data(sheet: Sheet, material: Material, exposures: dict[str, float]) -> str:
@@ -107,6 +112,15 @@ def copy_tradeoff(out: Path, name: str, to: Path) -> dict[str, str] | None:
         files["figures"] = f"data/{name}/tradeoff.json"
         copy_file(folder / "tradeoff.json", to / files["figures"])
     return files
+
+
+def budget_values(path: Path) -> dict:
+    """The split of the error, a row per roughness and in it both models' parts; without one, None."""
+    budget = read_json(path)
+    rows: dict[tuple[float, float], dict[str, dict]] = {}
+    for row in budget["rows"] if budget else []:
+        rows.setdefault((row["alpha_x"], row["alpha_y"]), {})[row["model"]] = row
+    return {"budget": budget, "budget_models": BUDGET_PARTS, "budget_rows": list(rows.items())}
 
 
 def read_json(path: Path) -> dict | None:

@@ -24,7 +24,11 @@ def write_pdf(to: Path, materials: list[Material]) -> None:
     browser = chromium()
     if not browser:
         raise OSError("there is no chromium on PATH to print with; tools/setup --gallery installs it")
-    chapters = [("Materials", "index"), ("Summary", "summary"), *((material.name, material.name) for material in materials)]
+    chapters = [
+        ("Materials", "index"),
+        ("Summary", "summary"),
+        *((material.name, material.name) for material in materials),
+    ]
     writer = PdfWriter()
     starts: dict[str, int] = {}
     with sync_playwright() as playwright:

@@ -1,4 +1,4 @@
-"""A material's sheet, from OUT/sheets/NAME/sheet.json: its images in tables, rows and columns, and the fits that they show."""
+"""A material's sheet, from OUT/sheets/NAME/sheet.json: images in tables, rows and columns, and the fits they show."""
 
 import json
 from dataclasses import dataclass
@@ -73,8 +73,9 @@ class Sheet:
         self.folder = out / "sheets" / name
         self.document = json.loads((self.folder / "sheet.json").read_text())
         flips = read_flips(out, name)
-        self.images = {entry["id"]: SheetImage(entry["id"], entry, flips.get(entry["id"]))
-                       for entry in self.document["images"]}
+        self.images = {
+            entry["id"]: SheetImage(entry["id"], entry, flips.get(entry["id"])) for entry in self.document["images"]
+        }
 
     @cached_property
     def fits(self) -> list[Fit]:

@@ -1,7 +1,7 @@
 """The summary over the materials, as a page: summary.html, of gallery/summary.json and gallery/charts/*.svg.
 
-Every list of rows in summary.json becomes a table, every object a table of one column of figures. A row's member that is
-itself an object becomes a group of columns.
+Every list of rows in summary.json becomes a table, every object a table of one column of figures. A row's member that
+is itself an object becomes a group of columns.
 """
 
 from dataclasses import dataclass
@@ -23,10 +23,23 @@ HEADINGS = {
     "time": "Time and cost",
     "extrapolation": "The full protocol, extrapolated",
 }
-CHARTS = {"models": "materials", "by_kind": "kind", "by_roughness": "roughness", "by_light": "light"}  # charts/*-LAST.svg
+CHARTS = {
+    "models": "materials",
+    "by_kind": "kind",
+    "by_roughness": "roughness",
+    "by_light": "light",
+}  # charts/*-LAST.svg
 UNTOLD = ("schema", "charts")
-WORDS = {"relrmse": "relRMSE", "flip": "FLIP", "p90": "90th percentile", "cpu": "CPU", "phi": "φ", "deg": "in degrees",
-         "rss": "memory", "mb": "in MB"}
+WORDS = {
+    "relrmse": "relRMSE",
+    "flip": "FLIP",
+    "p90": "90th percentile",
+    "cpu": "CPU",
+    "phi": "φ",
+    "deg": "in degrees",
+    "rss": "memory",
+    "mb": "in MB",
+}
 LONG = 12  # rows of a table that is folded away
 
 
@@ -106,11 +119,15 @@ def tables_of(summary: dict, charts: list[str]) -> list[Table]:
 
 
 def is_table(value) -> bool:
-    return isinstance(value, dict) or (isinstance(value, list) and bool(value) and all(isinstance(row, dict) for row in value))
+    return isinstance(value, dict) or (
+        isinstance(value, list) and bool(value) and all(isinstance(row, dict) for row in value)
+    )
 
 
 def table_of(key: str, value: list | dict, charts: list[str]) -> Table:
-    rows = value if isinstance(value, list) else [{"figure": in_words(name), "value": item} for name, item in flat(value)]
+    rows = (
+        value if isinstance(value, list) else [{"figure": in_words(name), "value": item} for name, item in flat(value)]
+    )
     columns = list(dict.fromkeys(column for row in rows for column in columns_of(row)))
     own = [chart for chart in charts if key in CHARTS and chart.endswith(f"-{CHARTS[key]}.svg")]
     return Table(key, HEADINGS.get(key, in_words(key).capitalize()), columns, rows, own)

@@ -60,15 +60,21 @@ gallery.controls = (() => {
     byId("wipe").setAttribute("aria-valuetext", `the reference down to row ${state.split} of ${height}`);
   }
 
+  function legendEnd(value) {
+    const text = number(value, 3).replace(/\.?0+$/, "");
+    return Object.assign(document.createElement("span"), { textContent: text });
+  }
+
   function drawLegend(view) {
     const colours = gallery.colours[view];
     if (!colours) return;
     const stops = colours.filter((_, at) => at % 5 === 0).map((colour) => `rgb(${colour.join(" ")})`);
     byId("legend-bar").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
     const ends = view === "signed" ? [-state.range, 0, state.range] : [0, state.range / 2, state.range];
-    byId("legend-ends").replaceChildren(...ends.map((end) => Object.assign(document.createElement("span"), { textContent: number(end, 3).replace(/0+$/, "").replace(/\.$/, "") })));
-    const what = view === "signed" ? "mean of a − b over the channels" : "root mean square of a − b over the channels";
-    byId("legend-text").textContent = `${what}, relative to the reference's root mean square over the sphere`;
+    byId("legend-ends").replaceChildren(...ends.map(legendEnd));
+    const what = view === "signed" ? "mean" : "root mean square";
+    const of = "of a − b over the channels";
+    byId("legend-text").textContent = `${what} ${of}, relative to the reference's root mean square over the sphere`;
   }
 
   fillChoices("choose-shows", "shows", sheet.shows);

@@ -55,7 +55,8 @@ gallery.cursor = (() => {
     const rms = gallery.display.rootMeanSquare(reference);
     const off = gallery.display.pixelDifference(image, reference, rms, at, "signed");
     const label = gallery.state.sheet.shows.find((item) => item.key === state.shows).label;
-    return `${label} ${values(image, at)}; reference ${values(reference, at)}; difference ${signed(off)} of its root mean square`;
+    const both = `${label} ${values(image, at)}; reference ${values(reference, at)}`;
+    return `${both}; difference ${signed(off)} of its root mean square`;
   }
 
   function values(image, at) {
@@ -77,7 +78,8 @@ gallery.cursor = (() => {
   function onPointer(event) {
     if (!shown) return;
     const [x, y] = pixelAt(event);
-    if (event.buttons === 1 && gallery.state.view() === "wipe") set({ split: Math.min(Math.max(y, 0), shown.image.height) });
+    const wipes = event.buttons === 1 && gallery.state.view() === "wipe";
+    if (wipes) set({ split: Math.min(Math.max(y, 0), shown.image.height) });
     place([x, y]);
   }
 

@@ -1,4 +1,4 @@
-// From linear images to display pixels: as `slopemix render --png` shows them, a wipe of two, and differences in colour.
+// From linear images to display pixels: as `slopemix render --png` shows them, a wipe of two, differences in colour.
 "use strict";
 
 gallery.display = (() => {
@@ -9,7 +9,7 @@ gallery.display = (() => {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
   }
 
-  /** One pixel of `image` at `exposure`, over the blue background where its alpha is 0, into `out` at the same place. */
+  /** One pixel of `image` at `exposure`, over the blue background where its alpha is 0, into `out`. */
   function tone(image, exposure, at, out) {
     const alpha = Math.min(Math.max(image.rgba[at + 3], 0), 1);
     for (let c = 0; c < 3; ++c) {
@@ -43,7 +43,7 @@ gallery.display = (() => {
     return count ? Math.sqrt(sum / count) : 0;
   }
 
-  /** What a pixel is off by, over the channels and relative to `rms`: signed the mean, absolute the root mean square. */
+  /** What a pixel is off by, relative to `rms`: over the channels the mean, signed, or the root mean square. */
   function pixelDifference(image, reference, rms, at, view) {
     let sum = 0;
     for (let c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
-// Reads the EXR files of this gallery: one part, scanlines, ZIP, channels of half or float. The page's scripts are classic
-// ones that share the object `gallery`, since pages opened from a file may not import modules.
+// Reads the EXR files of this gallery: one part, scanlines, ZIP, channels of half or float. The page's scripts are
+// classic ones that share the object `gallery`, since pages opened from a file may not import modules.
 "use strict";
 
 const gallery = {};
@@ -12,11 +12,12 @@ gallery.exr = (() => {
   const HALF = 1;
   const FLOAT = 2;
 
-  /** The pixels of an EXR file's bytes: {width, height, rgba}, a Float32Array of 4 values per pixel, rows from the top. */
+  /** The pixels of an EXR file's bytes: {width, height, rgba}, 4 floats per pixel, rows from the top. */
   async function decode(bytes) {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const { header, end } = readHeader(view);
-    const image = { width: header.width, height: header.height, rgba: new Float32Array(4 * header.width * header.height) };
+    const { width, height } = header;
+    const image = { width, height, rgba: new Float32Array(4 * width * height) };
     for (let chunk = 0; chunk * LINES_PER_CHUNK < header.height; ++chunk) {
       const at = Number(view.getBigUint64(end + 8 * chunk, true));
       const top = view.getInt32(at, true) - header.top;
@@ -28,7 +29,8 @@ gallery.exr = (() => {
   }
 
   function readHeader(view) {
-    if (view.getInt32(0, true) !== MAGIC || view.getInt32(4, true) !== VERSION) throw new Error("not an EXR file of scanlines");
+    const isScanlines = view.getInt32(0, true) === MAGIC && view.getInt32(4, true) === VERSION;
+    if (!isScanlines) throw new Error("not an EXR file of scanlines");
     const header = {};
     let at = 8;
     while (view.getUint8(at) !== 0) {
@@ -73,7 +75,7 @@ gallery.exr = (() => {
     return header.channels.reduce((sum, channel) => sum + channel.bytes * header.width, 0);
   }
 
-  /** Undoes ZIP: deflate, differences of neighbours, and the two halves of the bytes. What would not shrink is stored. */
+  /** Undoes ZIP: deflate, differences of neighbours, the two halves of the bytes. What would not shrink is stored. */
   async function unpack(packed, size) {
     if (packed.length === size) return packed;
     const data = await inflate(packed);

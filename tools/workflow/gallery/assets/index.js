@@ -35,7 +35,8 @@
     const text = byId("search").value.trim().toLowerCase();
     const kind = byId("kind").value;
     const items = [...lists.flatMap((list) => [...list.children]), ...absent];
-    for (const item of items) item.hidden = !(item.dataset.name.includes(text) && (!kind || item.dataset.kind === kind));
+    const matches = ({ dataset }) => dataset.name.includes(text) && (!kind || dataset.kind === kind);
+    for (const item of items) item.hidden = !matches(item);
     if (byId("absent")) byId("absent").hidden = absent.every((item) => item.hidden);
     const all = [...lists[0].children];
     byId("count").textContent = `${all.filter((item) => !item.hidden).length} of ${all.length} materials`;
@@ -53,7 +54,8 @@
     sort();
   }
 
-  for (const header of headers) header.querySelector("button").addEventListener("click", () => sortBy(header.dataset.key));
+  for (const header of headers)
+    header.querySelector("button").addEventListener("click", () => sortBy(header.dataset.key));
   for (const id of ["sort", "direction"]) byId(id).addEventListener("change", sort);
   byId("search").addEventListener("input", filter);
   byId("kind").addEventListener("change", filter);

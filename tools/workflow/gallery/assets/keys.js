@@ -1,5 +1,4 @@
-// The viewer's keys. They are those of its controls too; in a control that takes keys itself, such as a slider, only the
-// others work.
+// The viewer's keys, each of which does what a control does too. Lists keep theirs, and so do arrows off the image.
 "use strict";
 
 (() => {

@@ -1,4 +1,4 @@
-// The viewer: a dialog that opens from an image of the page, draws the state into its canvas, and names it in the address.
+// The viewer: a dialog that opens from an image of the page, draws the state, and names its image in the address.
 "use strict";
 
 gallery.viewer = (() => {
@@ -38,7 +38,7 @@ gallery.viewer = (() => {
 
   function painted(image, reference) {
     const view = gallery.state.view();
-    if (view === "signed" || view === "absolute") return gallery.display.difference(image, reference, view, state.range);
+    if (gallery.colours[view]) return gallery.display.difference(image, reference, view, state.range);
     if (view === "wipe") return gallery.display.wipe(image, reference, gallery.state.exposure(), state.split);
     return gallery.display.plain(image, gallery.state.exposure());
   }
@@ -73,7 +73,8 @@ gallery.viewer = (() => {
     const label = sheet.shows.find((item) => item.key === entry.shows).label;
     const light = sheet.lights.find((item) => item.key === entry.light_phi_deg);
     byId("viewer-title").textContent = `${sheet.material} ${entry.id}`;
-    byId("viewer-figures").textContent = [label, light && `light ${light.label}`, ...figures(entry)].filter(Boolean).join(" · ");
+    const texts = [label, light && `light ${light.label}`, ...figures(entry)];
+    byId("viewer-figures").textContent = texts.filter(Boolean).join(" · ");
     byId("canvas").setAttribute("aria-label", `${entry.id}, ${label}; the arrow keys move over its pixels`);
   }
 
@@ -84,7 +85,7 @@ gallery.viewer = (() => {
   }
 
   function complain(error) {
-    byId("message").textContent = `The linear data cannot be shown: ${error.message}. The page's own pictures are unaffected.`;
+    byId("message").textContent = `The linear data cannot be shown: ${error.message}.`;
   }
 
   function open(id) {
