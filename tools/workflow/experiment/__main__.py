@@ -25,7 +25,7 @@ def settings_of(parsed, settings, listed):
     slopemix = os.environ["SLOPEMIX"]
     return settings | {
         "tradeoff": folder.chosen(listed, settings["tradeoff"], "--tradeoff") if settings["tradeoff"] else [],
-        "names": folder.chosen(listed, parsed.only, "--only"), "merl": str(parsed.merl.resolve()),
+        "names": folder.chosen(listed, parsed.only, "--only"), "merl": folder.link_tables(parsed.merl, parsed.out),
         "slopemix": str(folder.program(slopemix)), "version": folder.call(slopemix, "--version").split()[-1],
         "python": sys.executable, "cores": parsed.cores}
 

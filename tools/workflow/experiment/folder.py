@@ -38,6 +38,18 @@ def call(slopemix, *arguments):
     return done.stdout
 
 
+def link_tables(merl, out):
+    """OUT/tables is the folder of tables: results name it, and not where it is on this machine."""
+    link, target = out / "tables", merl.resolve()
+    if link.is_symlink() and link.resolve() == target:
+        return link.name
+    if link.exists() and not link.is_symlink():
+        raise Refused(f"{link} is in the way: it should become a link to {target}")
+    link.unlink(missing_ok=True)
+    link.symlink_to(target)
+    return link.name
+
+
 def materials(slopemix, merl, out):
     """The catalogue with what the folder of tables has of it, also in OUT/materials.json."""
     text = call(slopemix, "materials", merl, "--json")
