@@ -31,9 +31,10 @@ def image(id, relrmse, flip, model="shared", lobes=1, order=0, light=90.0):
 # Means: a 0.2, b 0.6 under shared N = 1; a 0.3, b 0.1 under per-lobe N = 8.
 METRICS = {
     "a": {"images": [image("1.1.3", 0.1, 0.01), image("2.1.3", 0.3, 0.03, light=0.0),
-                     image("1.1.6", 0.3, 0.05, "per-lobe", 8)], "seconds_per_reference_sample": 2e-9},
+                     image("1.1.6", 0.3, 0.05, "per-lobe", 8)],
+          "references": [{"samples": 1000, "seconds": 0.5}, {"samples": 3000, "seconds": 0.9}]},
     "b": {"images": [image("1.1.3", 0.4, 0.04), image("2.1.3", 0.8, 0.08, light=0.0),
-                     image("1.1.6", 0.1, 0.02, "per-lobe", 8)], "seconds_per_reference_sample": 4e-9}}
+                     image("1.1.6", 0.1, 0.02, "per-lobe", 8)], "references": [{"samples": 2000, "seconds": 0.7}]}}
 ROWS = statistics.rows_of(METRICS, {"a": "paint", "b": "metal"})
 
 
@@ -100,10 +101,16 @@ class Cost(unittest.TestCase):
         inside = (centres[:, None] ** 2 + centres[None, :] ** 2 < 1).sum()
         self.assertEqual(cost.PIXELS_ON_SPHERE, inside)
 
-    def test_the_protocol_from_the_mean_of_the_materials(self):
-        found = cost.extrapolation(METRICS, threads=2)
+    def test_the_protocol_from_the_cost_of_one_sample_more(self):
+        found = cost.extrapolation(METRICS, threads=2)  # 0.3 s and 0.2 ms a sample
         samples = 100 * 27 * cost.PIXELS_ON_SPHERE * 65536
-        self.assertAlmostEqual(found["core_seconds"], samples * 3e-9 * 2)
+        self.assertAlmostEqual(found["core_seconds"] / (samples * 2e-4 * 2), 1)
+
+    def test_the_mean_where_one_sample_more_is_not_told(self):
+        same = [{"samples": 100, "seconds": seconds} for seconds in (1.0, 3.0)]
+        falling = [{"samples": 100, "seconds": 3.0}, {"samples": 300, "seconds": 1.0}]
+        self.assertAlmostEqual(cost.seconds_per_sample(same), 0.02)
+        self.assertAlmostEqual(cost.seconds_per_sample(falling), 0.01)
 
     def test_stages(self):
         with tempfile.TemporaryDirectory() as out:

@@ -55,9 +55,10 @@ def measure(folder, pixels_per_degree):
               | {"flip": flip(references[scene(image)], pixels[image["id"]], exposures[image["light_phi_deg"]],
                               pixels_per_degree)}
               for image in sheet["images"] if image["integrator"] == "filtered"]
+    taken = [{"id": image["id"], "samples": image["spp"] * int((pixels[image["id"]][..., 3] > 0).sum()),
+              "seconds": image["seconds"]} for image in sheet["images"] if image["integrator"] == "reference"]
     return {"material": sheet["material"], "resolution": sheet["resolution"], "pixels_per_degree": pixels_per_degree,
-            "reference_seconds": sheet["reference_seconds"],
-            "seconds_per_reference_sample": sheet["seconds_per_reference_sample"], "images": images}
+            "references": taken, "images": images}
 
 
 def main():
