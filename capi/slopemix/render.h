@@ -91,8 +91,8 @@ typedef struct smx_render_options {
                                   (smx_material_eval), it is all */
     double effect_tolerance; /**< of SMX_EFFECTS_AUTO: relRMSE of the image without all that is left out, 0 <= it < 1 */
     uint32_t scrambles;      /**< 8, 16, 32 or 64 independent ones that a reference's samples come in, and its standard
-                                errors      of: more make them more honest, and as many samples less even. Without an estimate
-                                where      spp is no multiple of twice as many */
+                                errors      of: more make them more honest, and as many samples less even. Without an
+                                estimate      where      spp is no multiple of twice as many */
 } smx_render_options;
 /** Defaults of smx_render_options. */
 #define SMX_RENDER_OPTIONS_INIT                                                                                \
