@@ -90,9 +90,9 @@ typedef struct smx_render_options {
                                   for the statistical one, under a uniform light, and where there is no image
                                   (smx_material_eval), it is all */
     double effect_tolerance; /**< of SMX_EFFECTS_AUTO: relRMSE of the image without all that is left out, 0 <= it < 1 */
-    uint32_t scrambles;      /**< 8, 16, 32 or 64 independent ones that a reference's samples come in, and its standard
-                                errors      of: more make them more honest, and as many samples less even. Without an
-                                estimate      where      spp is no multiple of twice as many */
+    uint32_t scrambles; /**< 8, 16, 32 or 64: independent ones, in which a reference's samples come and of which its
+                             standard errors are. More make these more honest, and as many samples less even; there
+                             is no estimate where spp is no multiple of twice as many */
 } smx_render_options;
 /** Defaults of smx_render_options. */
 #define SMX_RENDER_OPTIONS_INIT                                                                                \
