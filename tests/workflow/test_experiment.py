@@ -16,7 +16,7 @@ from folders import Experiment, make_tables, workflow_python
 
 CORES = 2
 FLAGS = ["--cores", str(CORES), "--res", "16", "--spp", "16", "--shard", "table", "--worst", "1", "--until", "gallery"]
-BEGUN_SECONDS = 60
+BEGUN_SECONDS = 300
 RESULTS = ("fits/**/*.*", "sheets/**/*.*", "metrics/*", "budget/*", "gallery/**/*.*", "times/**/*.json")
 random.seed(10)
 
