@@ -1,5 +1,7 @@
 #include "reference_attributes.h"
 
+#include "sampling_plan.h"
+
 namespace smx {
 
 Attributes describe_reference(const Brdf &brdf, const Scene &scene, const RenderOptions &options, Effects on,
@@ -9,7 +11,8 @@ Attributes describe_reference(const Brdf &brdf, const Scene &scene, const Render
     attributes["slopemix.brdf_sha256"] = brdf.sha256();
     attributes["slopemix.sampler"] = sampler_name(options.sampler);
     attributes["slopemix.spp"] = std::to_string(spp);
-    attributes["slopemix.scrambles"] = std::to_string(options.scrambles);
+    attributes["slopemix.scrambles"] =
+        std::to_string(options.sampler == Sampler::Grid ? 1 : scrambles_of(spp, options.scrambles));
     attributes["slopemix.grade"] = grade_name(options.grade);
     attributes["slopemix.seed"] = std::to_string(options.seed);
     attributes["slopemix.lookup"] = options.lookup == Lookup::Nearest ? "nearest" : "linear";

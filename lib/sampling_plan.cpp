@@ -18,10 +18,10 @@ Pass grid(std::uint32_t strata_1, std::uint32_t strata_2) {
     return {Drawing::Grid, strata_1 * strata_2, strata_1, strata_2};
 }
 
+} // namespace
+
 // Of samples that come in pairs at the most.
 std::uint32_t scrambles_of(std::uint32_t spp, std::uint32_t wanted) { return spp % (2 * wanted) == 0 ? wanted : 1; }
-
-} // namespace
 
 std::uint32_t SamplingPlan::samples_per_scramble() const {
     std::uint32_t sum = 0;

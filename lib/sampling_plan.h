@@ -29,6 +29,9 @@ struct SamplingPlan {
 // Throws InvalidArgument, naming value and range.
 void validate(const RenderOptions &options);
 
+// As many as are `wanted` where each can have pairs of samples, else one.
+std::uint32_t scrambles_of(std::uint32_t spp, std::uint32_t wanted);
+
 // `scrambles` of them where spp is a multiple of twice as many, else one.
 SamplingPlan sampling_plan(const Displacement &x, Sampler sampler, std::uint32_t spp, std::uint32_t scrambles);
 

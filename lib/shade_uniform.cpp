@@ -75,7 +75,7 @@ Rendered shade_uniform(Context &context, const Material &material, const Scene &
     image.describe = [&](std::uint32_t spp) {
         Attributes attributes = describe_filtered(material, scene, options, simulated, all_orders);
         attributes["slopemix.spp"] = std::to_string(spp);
-        attributes["slopemix.scrambles"] = std::to_string(options.scrambles);
+        attributes["slopemix.scrambles"] = std::to_string(scrambles_of(spp, options.scrambles));
         attributes["slopemix.seed"] = std::to_string(options.seed);
         return attributes;
     };

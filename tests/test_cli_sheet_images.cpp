@@ -165,13 +165,12 @@ TEST(CliSheetImages, FromMaterialFiles) {
     // Images of two fits are no sheet, and a sheet does not go on with another fit.
     ASSERT_CLI_OK(test::cli(only(other.path(), "1.1.4,1.1.5")));
     EXPECT_CLI_FAILS(1, "1.1.5.exr is of another fit", only(other.path(), "1.1.2,1.1.3,1.1.4,1.1.5", {"--collect"}));
-    fs::remove(from_files / "sheet.json");
+    const Arguments longer = test::replaced(sheet(from_files.path()), "--spp", "16384");
     test::CliSetting killed;
     killed.signal = SIGKILL;
     killed.signal_when = [&] { return test::exists(from_files / "sheet.partial.json"); };
-    if (test::cli(sheet(from_files.path(), flags), killed).status == -1) {
-        EXPECT_CLI_FAILS(1, "made with material_files", sheet(from_files.path(), {"--resume"}));
-    }
+    ASSERT_EQ(test::cli(test::with(longer, flags), killed).status, -1);
+    EXPECT_CLI_FAILS(1, "made with material_files", test::with(longer, {"--resume"}));
 }
 
 TEST(CliSheetImages, OtherMaterialFilesAreRefused) {

@@ -100,22 +100,28 @@ class Cost(unittest.TestCase):
         centres = (numpy.arange(128) + 0.5) / 64 - 1
         inside = (centres[:, None] ** 2 + centres[None, :] ** 2 < 1).sum()
         self.assertEqual(cost.PIXELS_ON_SPHERE, inside)
+        x, y = numpy.meshgrid(centres, centres)
+        z = numpy.sqrt(numpy.maximum(0, 1 - x**2 - y**2))  # towards the camera, where phi is 90 degrees
+        lit = sum((numpy.cos(phi) * x + numpy.sin(phi) * z > 0)[x**2 + y**2 < 1].sum()
+                  for phi in numpy.radians(cost.LIGHTS))
+        self.assertAlmostEqual(cost.LIT_PIXELS / lit, 1, delta=0.01)
 
     def test_the_protocol_from_the_cost_of_one_sample_more(self):
         found = cost.extrapolation(METRICS, threads=2)  # 0.3 s and 0.2 ms a sample
-        samples = 100 * 27 * cost.PIXELS_ON_SPHERE * 65536
+        samples = 100 * 9 * cost.LIT_PIXELS * 65536
         self.assertAlmostEqual(found["core_seconds"] / (samples * 2e-4 * 2), 1)
+        self.assertIn("one more", found["assumes"])
 
     def test_the_mean_where_one_sample_more_is_not_told(self):
         same = [{"samples": 100, "seconds": seconds} for seconds in (1.0, 3.0)]
         falling = [{"samples": 100, "seconds": 3.0}, {"samples": 300, "seconds": 1.0}]
-        self.assertAlmostEqual(cost.seconds_per_sample(same), 0.02)
-        self.assertAlmostEqual(cost.seconds_per_sample(falling), 0.01)
+        self.assertAlmostEqual(cost.seconds_per_sample(same)[0], 0.02)
+        self.assertAlmostEqual(cost.seconds_per_sample(falling)[0], 0.01)
 
     def test_stages(self):
         with tempfile.TemporaryDirectory() as out:
             for path, took in (("fit/a/shared-1", (1.0, 2.0, 50)), ("fit/b/shared-1", (0.5, 0.25, 70)),
-                               ("worst", (3.0, 9.0, 5))):
+                               ("worst", (3.0, 9.0, 5)), ("page/a", (1.0, 1.0, 1))):
                 file = pathlib.Path(out, "times", f"{path}.json")
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text('{"seconds": %g, "cpu_seconds": %g, "max_rss_mb": %d}' % took)

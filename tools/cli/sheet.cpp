@@ -8,6 +8,7 @@
 #include <string>
 
 #include "commands.h"
+#include "folder_lock.h"
 #include "input.h"
 #include "sheet_job.h"
 #include "sheet_journal.h"
@@ -108,6 +109,7 @@ void run_images(const SheetJob &job, const SheetPlan &plan) {
 void run_collect(const SheetJob &job, const SheetPlan &plan) {
     const auto begin = Clock::now();
     require_writable_report(job);
+    const FolderLock lock(job.out, FolderLock::Mode::beside_others);
     SheetResult result = collect_sheet(job, plan);
     report(job, plan, result, begin);
 }
@@ -166,7 +168,7 @@ void add_sheet(CLI::App &app) {
                    "Go on where an interrupted sheet of DIR stopped, with its finished images; a whole sheet of other "
                    "settings is refused, and an image that --only names is rendered again")
         ->excludes(collect);
-    command->add_flag("--json", job->json, "Print sheet.json");
+    command->add_flag("--json", job->json, "Print sheet.json; with --only alone, a list of its images");
     command->footer(
         "Tables T: 1 isotropic (alpha r,r), 2 latitudinal (r,0), 3 longitudinal (0,r). Rows R: one per radius.\n"
         "Columns C: 1 the geometry, then for each light (90, 0, -25 degrees) the reference and one filtered image per\n"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <set>
 
-#include "folder_lock.h"
 #include "input.h"
 #include "sheet_record.h"
 
@@ -37,7 +36,6 @@ std::string joined(const std::set<std::string> &names) {
 } // namespace
 
 SheetResult collect_sheet(const SheetJob &job, const SheetPlan &plan) {
-    const FolderLock lock(job.out, FolderLock::Mode::beside_others);
     SheetResult result;
     result.material = info_of(open_brdf(job.input));
     std::set<std::string> devices;

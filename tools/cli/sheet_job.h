@@ -85,8 +85,8 @@ class SheetJournal;
 // Renders all of the plan's images that the journal does not have. Where it has the whole sheet, nothing is done.
 SheetResult render_sheet(const SheetJob &job, const SheetPlan &plan, SheetJournal &journal);
 
-// The images that were rendered one by one (sheet_record.h). Throws CommandError where one is missing, damaged or made
-// with other settings, and names it.
+// The images that were rendered one by one (sheet_record.h), whose folder the caller has locked. Throws CommandError
+// where one is missing, damaged or made with other settings, and names it.
 SheetResult collect_sheet(const SheetJob &job, const SheetPlan &plan);
 
 // Reads the images: the errors of the filtered ones, and what the exposures need.

@@ -39,6 +39,8 @@ class IndexEntry:
 
 def write_index(out: Path, to: Path, materials: list[Material]) -> None:
     """Of the pages that are in the folder `to`."""
+    from .pdf import chromium  # which asks this module for pages
+
     entries = [IndexEntry(material, Sheet(out, material.name)) for material in materials if has_page(to, material.name)]
     absent = [material for material in materials if not has_page(to, material.name)]
     fits = sorted({fit for entry in entries for fit in entry.sheet.fits}, key=in_order)
@@ -46,7 +48,7 @@ def write_index(out: Path, to: Path, materials: list[Material]) -> None:
     kinds = sorted({material.kind for material in materials})
     write_text(
         to / "index.html",
-        render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=True),
+        render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=chromium() is not None),
     )
     write_assets(to)
 

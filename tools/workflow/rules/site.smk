@@ -13,7 +13,7 @@ checkpoint worst:
 
 def worst_names():
     with checkpoints.worst.get().output[0].open() as file:
-        return file.read().split()
+        return file.read().splitlines()
 
 def parts_of_page(wildcards):
     """What a page shows besides the sheet, of the materials that have it."""

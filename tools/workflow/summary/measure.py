@@ -44,6 +44,12 @@ def flip(reference, image, exposure, pixels_per_degree):
     return float(numpy.mean(error_map[..., 0][reference[..., 3] > 0]))
 
 
+def cost_of(folder, reference):
+    """Samples of lit pixels, in all tries that a target error took, and seconds without the compilation of kernels."""
+    report = json.loads((folder / f"{reference}.json").read_text())["report"]
+    return {"id": reference, "samples": report["evaluations"], "seconds": report["seconds"] - report["build_seconds"]}
+
+
 def measure(folder, pixels_per_degree):
     sheet = json.loads((folder / "sheet.json").read_text())
     exposures = {entry["light_phi_deg"]: entry["exposure"] for entry in sheet["exposures"]}
@@ -52,11 +58,10 @@ def measure(folder, pixels_per_degree):
               if image["integrator"] != "geometry"}
     references = {scene(image): pixels[image["id"]] for image in sheet["images"] if image["integrator"] == "reference"}
     images = [{key: image[key] for key in KEPT}
-              | {"flip": flip(references[scene(image)], pixels[image["id"]], exposures[image["light_phi_deg"]],
+              | {"flip": flip(references[scene(image)], pixels[image["id"]], exposures.get(image["light_phi_deg"], 1.0),
                               pixels_per_degree)}
               for image in sheet["images"] if image["integrator"] == "filtered"]
-    taken = [{"id": image["id"], "samples": image["spp"] * int((pixels[image["id"]][..., 3] > 0).sum()),
-              "seconds": image["seconds"]} for image in sheet["images"] if image["integrator"] == "reference"]
+    taken = [cost_of(folder, image["id"]) for image in sheet["images"] if image["integrator"] == "reference"]
     return {"material": sheet["material"], "resolution": sheet["resolution"], "pixels_per_degree": pixels_per_degree,
             "references": taken, "images": images}
 

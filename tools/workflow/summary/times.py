@@ -10,6 +10,9 @@ def clock(seconds):
     return f"{minutes} min {rest:02d} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60:02d} min {rest:02d} s"
 
 
+LATER = ("page", "index", "summary_page", "print")  # of the gallery, which the summary is a part of
+
+
 def jobs_of(out):
     """Stage and times of every job whose results are there."""
     root = out / "times"
@@ -17,10 +20,12 @@ def jobs_of(out):
         yield file.relative_to(root).parts[0].removesuffix(".json"), json.loads(file.read_text())
 
 
-def stage_times(out):
-    """A row per stage: jobs, seconds by the clock and of processors, both summed over the jobs, peak of memory."""
+def stage_times(out, without=()):
+    """A row per stage, but for some: jobs, seconds by the clock and of processors, both summed over the jobs, peak of memory."""
     stages = {}
     for stage, took in jobs_of(out):
+        if stage in without:
+            continue
         row = stages.setdefault(stage, {"stage": stage, "jobs": 0, "seconds": 0.0, "cpu_seconds": 0.0, "max_rss_mb": 0})
         row["jobs"] += 1
         row["seconds"] += took["seconds"]

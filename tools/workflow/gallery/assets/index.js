@@ -35,7 +35,7 @@
     const text = byId("search").value.trim().toLowerCase();
     const kind = byId("kind").value;
     const items = [...lists.flatMap((list) => [...list.children]), ...absent];
-    const matches = ({ dataset }) => dataset.name.includes(text) && (!kind || dataset.kind === kind);
+    const matches = ({ dataset }) => dataset.name.toLowerCase().includes(text) && (!kind || dataset.kind === kind);
     for (const item of items) item.hidden = !matches(item);
     if (byId("absent")) byId("absent").hidden = absent.every((item) => item.hidden);
     const all = [...lists[0].children];
