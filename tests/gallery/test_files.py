@@ -105,6 +105,12 @@ class Stages(unittest.TestCase):
         self.assertEqual(gallery(out(), "--page", f"{BOTH},{BARE}", "--index", "--summary").returncode, 0)
         self.assertEqual({path: path.stat().st_mtime_ns for path in site().rglob("*")}, times)
 
+    def test_no_link_to_a_pdf_that_is_not_wanted(self):
+        to, link = scratch() / "no-pdf", 'href="gallery.pdf"'
+        self.assertEqual(gallery(out(), "--to", to, "--page", BARE, "--index", "--no-pdf").returncode, 0)
+        self.assertNotIn(link, (to / "index.html").read_text())
+        self.assertIn(link, (site() / "index.html").read_text())
+
     def test_only_some(self):
         to = scratch() / "some"
         self.assertEqual(gallery(out(), "--to", to, "--only", BARE, "--page", BARE, "--index").returncode, 0)

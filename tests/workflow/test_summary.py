@@ -17,7 +17,8 @@ sys.path.insert(0, str(SOURCE / "tools" / "workflow"))
 import numpy
 from plan import Plan, sheet_flags
 from summary import cost, reason, statistics, tables, times
-from summary.measure import BACKGROUND, flip, shown
+from gallery.image import BACKGROUND
+from summary.measure import flip, shown
 
 ALPHAS = {1: (0.1, 0.1), 2: (0.1, 0.0), 3: (0.0, 0.1)}
 
@@ -145,7 +146,7 @@ class Images(unittest.TestCase):
     def test_what_is_shown(self):
         pixels = numpy.array([[[0.5, 0.001, 4.0, 1.0], [0, 0, 0, 0]]], numpy.float32)
         self.assertEqual((255 * shown(pixels, 1.0)[0, 0]).round().tolist(), [188, 3, 255])  # sRGB of a half is 0.735
-        self.assertTrue(numpy.allclose(shown(pixels, 1.0)[0, 1], BACKGROUND))
+        self.assertTrue(numpy.allclose(255 * shown(pixels, 1.0)[0, 1], BACKGROUND))
 
     def test_flip_of_black_and_white_is_1_and_of_the_same_0(self):
         self.assertEqual(flip(self.sphere(0.5), self.sphere(0.5), 1.0, 67), 0.0)

@@ -20,13 +20,13 @@ def main() -> int:
         if arguments.page:
             make_pages(arguments.out, to, chosen(materials, arguments.page))
         if arguments.index:
-            make_index(arguments.out, to, materials)
+            make_index(arguments.out, to, materials, not arguments.no_pdf)
         if arguments.summary:
             make_summary(arguments.out, to, materials)
         if arguments.pdf:
             make_pdf(to, materials)
         if not (arguments.page or arguments.index or arguments.summary or arguments.pdf):
-            make_all(arguments.out, to, materials)
+            make_all(arguments.out, to, materials, not arguments.no_pdf)
     except (OSError, ValueError) as error:
         print(f"gallery: {error}", file=sys.stderr)
         return 1
@@ -42,6 +42,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--only", type=names, metavar="NAME,...", help="only these materials")
     parser.add_argument("--page", type=names, metavar="NAME,...", help="build these materials' pages")
     parser.add_argument("--index", action="store_true", help="build index.html, of the pages that are there")
+    parser.add_argument("--no-pdf", action="store_true", help="no gallery.pdf, and no link to it in the index")
     parser.add_argument("--summary", action="store_true", help="build summary.html, of OUT/gallery/summary.json")
     parser.add_argument("--pdf", action="store_true", help="print the pages that are there into gallery.pdf (chromium)")
     return parser.parse_args()
@@ -60,17 +61,17 @@ def chosen(materials: list[Material], wanted: list[str] | None) -> list[Material
     return [material for material in materials if material.name in wanted]
 
 
-def make_all(out: Path, to: Path, materials: list[Material]) -> None:
+def make_all(out: Path, to: Path, materials: list[Material], with_pdf: bool) -> None:
     from .pdf import chromium
 
     make_pages(
         out, to, [material for material in materials if (out / "sheets" / material.name / "sheet.json").is_file()]
     )
-    make_index(out, to, materials)
+    make_index(out, to, materials, with_pdf)
     make_summary(out, to, materials)
-    if chromium():
+    if with_pdf and chromium():
         make_pdf(to, materials)
-    else:
+    elif with_pdf:
         print("gallery: gallery.pdf is left out: no chromium on PATH (tools/setup --gallery)", file=sys.stderr)
 
 
@@ -84,10 +85,11 @@ def make_pages(out: Path, to: Path, materials: list[Material]) -> None:
         write_page(out, to, material)
 
 
-def make_index(out: Path, to: Path, materials: list[Material]) -> None:
+def make_index(out: Path, to: Path, materials: list[Material], with_pdf: bool) -> None:
     from .index import write_index
+    from .pdf import chromium
 
-    write_index(out, to, materials)
+    write_index(out, to, materials, with_pdf and chromium() is not None)
 
 
 def make_summary(out: Path, to: Path, materials: list[Material]) -> None:

@@ -37,10 +37,8 @@ class IndexEntry:
         return sorted(found, key=lambda image: order.index(image.shows))
 
 
-def write_index(out: Path, to: Path, materials: list[Material]) -> None:
-    """Of the pages that are in the folder `to`."""
-    from .pdf import chromium  # which asks this module for pages
-
+def write_index(out: Path, to: Path, materials: list[Material], pdf: bool) -> None:
+    """Of the pages that are in the folder `to`; `pdf`: there is, or will be, one to link to."""
     entries = [IndexEntry(material, Sheet(out, material.name)) for material in materials if has_page(to, material.name)]
     absent = [material for material in materials if not has_page(to, material.name)]
     fits = sorted({fit for entry in entries for fit in entry.sheet.fits}, key=in_order)
@@ -48,7 +46,7 @@ def write_index(out: Path, to: Path, materials: list[Material]) -> None:
     kinds = sorted({material.kind for material in materials})
     write_text(
         to / "index.html",
-        render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=chromium() is not None),
+        render("index.html", entries=entries, absent=absent, fits=fits, flips=flips, kinds=kinds, pdf=pdf),
     )
     write_assets(to)
 

@@ -13,27 +13,17 @@ import pathlib
 
 import flip_evaluator
 import numpy
-import OpenEXR
+
+from gallery.image import display_pixels, read_exr
 
 from .files import write_text
 
-BACKGROUND = numpy.array([58, 110, 176]) / 255  # lib/png.cpp
 KEPT = ("id", "model", "lobes", "widening_order", "alpha_x", "alpha_y", "light_phi_deg", "relrmse")
 
 
-def read_exr(path):
-    """Float pixels [height][width][4]: R, G, B, A."""
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.channels()
-        return numpy.stack([channels[name].pixels.astype(numpy.float32) for name in "RGBA"], axis=-1)
-
-
 def shown(linear, exposure):
-    """What slopemix's PNG shows of it, 0 to 1 in steps of 1/255 (IEC 61966-2-1)."""
-    clipped = numpy.clip(exposure * linear[..., :3].astype(numpy.float64), 0, 1)
-    srgb = numpy.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
-    alpha = numpy.clip(linear[..., 3:], 0, 1)
-    return (numpy.floor(255 * (srgb * alpha + BACKGROUND * (1 - alpha)) + 0.5) / 255).astype(numpy.float32)
+    """What slopemix's PNG shows of it, 0 to 1 in steps of 1/255."""
+    return (display_pixels(linear, exposure) / 255).astype(numpy.float32)
 
 
 def flip(reference, image, exposure, pixels_per_degree):
@@ -54,7 +44,7 @@ def measure(folder, pixels_per_degree):
     sheet = json.loads((folder / "sheet.json").read_text())
     exposures = {entry["light_phi_deg"]: entry["exposure"] for entry in sheet["exposures"]}
     scene = lambda image: (image["alpha_x"], image["alpha_y"], image["light_phi_deg"])
-    pixels = {image["id"]: read_exr(folder / f"{image['id']}.exr") for image in sheet["images"]
+    pixels = {image["id"]: read_exr(folder / f"{image['id']}.exr").rgba for image in sheet["images"]
               if image["integrator"] != "geometry"}
     references = {scene(image): pixels[image["id"]] for image in sheet["images"] if image["integrator"] == "reference"}
     images = [{key: image[key] for key in KEPT}
