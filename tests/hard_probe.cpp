@@ -44,6 +44,11 @@ __kernel void probe(__global real *out, int stride, __global const float *wi, __
     realW g2 = selectW((realW)0.0f, mixture_g2(lobes, count, &e) * e.o.p, e.visible);
     vstoreW(g2, 0, to + (9 - HEIGHT_CORRELATION) * stride);
 #endif
+#if HEIGHT_CORRELATION == 1
+    VectorW light = {d.ix, d.iy, d.iz}, view = {d.ox, d.oy, d.oz};
+    Viewer v = viewer(&x, view);
+    vstoreW(drawn_density(&x, lobes, count, PER_LOBE, &v, light, view), 0, to + (22 + PER_LOBE) * stride);
+#endif
     RgbW f = fcos_of_pair(lobes, count, PER_LOBE, &curves, &knot, &e);
     int shading = 10 + 6 * PER_LOBE + 3 * (1 - HEIGHT_CORRELATION);
     vstoreW(f.r, 0, to + shading * stride);
@@ -52,7 +57,7 @@ __kernel void probe(__global real *out, int stride, __global const float *wi, __
 }
 )";
 
-constexpr const char *names[quantities] = {"D",
+const std::vector<std::string> names{"D",
                                            "sigma",
                                            "Lambda",
                                            "G1",
@@ -73,7 +78,9 @@ constexpr const char *names[quantities] = {"D",
                                            "f cos, per-lobe, correlated, steep",
                                            "f cos, per-lobe, separable, red",
                                            "f cos, per-lobe, separable, 0",
-                                           "f cos, per-lobe, separable, steep"};
+                                           "f cos, per-lobe, separable, steep",
+"density of wi, shared",
+"density of wi, per-lobe"};
 
 smx::Material material_of(const HardCase &c, smx::Model model) {
     smx::Material m;
@@ -94,12 +101,13 @@ std::vector<float> curves_of(const HardCase &c) {
 
 } // namespace
 
-const char *quantity_name(std::size_t quantity) { return names[quantity]; }
+const std::vector<std::string> &quantity_names() { return names; }
 
 smx::Displacement displacement_of(const HardSurface &x) { return {x.alpha_x, x.alpha_y, x.rho, x.mean_x, x.mean_y}; }
 
 HardProbe::HardProbe(smx::Context &context, smx::Grade grade) : context_(context), grade_(grade) {
-    const std::string source = smx::kernel_source("shade_filtered.cl") + smx::kernel_source("pairs.clh") + probe;
+    const std::string source = smx::kernel_source("shade_filtered.cl") + smx::kernel_source("pairs.clh") +
+                               smx::kernel_source("visible_normals.clh") + probe;
     for (int per_lobe : {0, 1})
         for (int separable : {0, 1}) {
             cl::Program program(context.cl(), source);

@@ -14,40 +14,30 @@ constexpr std::array<double, 4> steps{1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0};
 
 } // namespace
 
-std::ostream &operator<<(std::ostream &out, const HardPoint &p) {
-    const HardCase c = hard_case(p.index);
-    out << std::setprecision(9) << "| " << std::setprecision(3) << p.ratio << " | " << quantity_name(p.quantity)
-        << " | " << std::setprecision(9) << p.got << " | " << p.wanted << " | " << std::setprecision(3) << p.condition
-        << std::setprecision(9) << " | (" << p.pair.wi[0] << ", " << p.pair.wi[1] << ", " << p.pair.wi[2] << ") | ("
-        << p.pair.wo[0] << ", " << p.pair.wo[1] << ", " << p.pair.wo[2] << ") | X (" << c.x.alpha_x << ", "
-        << c.x.alpha_y << ", " << c.x.rho << ", " << c.x.mean_x << ", " << c.x.mean_y << "), ";
-    if (c.lobes.size() > 2) return out << c.lobes.size() << " lobes |";
-    for (const oracle::Lobe &lobe : c.lobes) out << "lobe (" << lobe.weight << ", " << lobe.alpha << ") ";
-    return out << "|";
-}
-
 double HardStatistics::error_ratio(const HardPoint &p) const {
     const double ratio = std::abs(p.got / p.wanted - 1.0) / (promise_.factor * (1.0 + p.condition));
     return std::isfinite(p.condition) && !std::isnan(ratio) ? ratio : std::numeric_limits<double>::infinity();
 }
 
 bool HardStatistics::is_wrong(const HardPoint &p) const {
-    if (p.wanted < smallest_float) return p.got > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
+    if (std::abs(p.wanted) < smallest_float)
+        return std::abs(p.got) > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
     return error_ratio(p) > 1.0 || (p.condition < 10.0 && std::abs(p.got / p.wanted - 1.0) > promise_.well_conditioned);
 }
 
-void HardStatistics::count(HardPoint p) {
+bool HardStatistics::count(HardPoint &p) {
     QuantityCounts &c = counts_[p.quantity];
+    const bool is_small = std::abs(p.wanted) < smallest_float; // or 0: no relative error is asked for
     ++c.points;
     p.ratio = std::numeric_limits<double>::infinity();
-    if (!std::isfinite(p.got)) return ++c.not_finite, keep(p);
-    if (p.got < 0.0) return ++c.negative, keep(p);
-    if (p.wanted < smallest_float && !is_wrong(p)) return ++c.within[0], void(); // or 0: no relative error is asked for
+    if (!std::isfinite(p.got)) return ++c.not_finite, true;
+    if (p.got < 0.0 && !p.is_signed) return ++c.negative, true;
+    if (is_small && !is_wrong(p)) return ++c.within[0], false;
     const bool undetermined = p.is_open || (std::isfinite(p.condition) && promise_.factor * (1.0 + p.condition) >= 1.0);
     c.undetermined += undetermined;
-    if (undetermined) return;
-    if (p.wanted < smallest_float) return ++c.wrong, keep(p);
-    if (p.got == 0.0) return ++c.zero, keep(p);
+    if (undetermined) return false;
+    if (is_small) return ++c.wrong, true;
+    if (p.got == 0.0) return ++c.zero, true;
     p.ratio = error_ratio(p);
     c.largest = std::max(c.largest, p.ratio);
     const double error = std::abs(p.got / p.wanted - 1.0);
@@ -58,11 +48,14 @@ void HardStatistics::count(HardPoint p) {
             ++c.within[k];
             break;
         }
-    keep(p);
+    return true;
+}
+
+bool HardStatistics::is_among_worst(const HardPoint &p) const {
+    return worst_.size() < worst_kept || p.ratio > worst_.back().ratio;
 }
 
 void HardStatistics::keep(const HardPoint &p) {
-    if (worst_.size() == worst_kept && p.ratio <= worst_.back().ratio) return;
     const auto place =
         std::find_if(worst_.begin(), worst_.end(), [&](const HardPoint &w) { return p.ratio > w.ratio; });
     worst_.insert(place, p);
@@ -70,7 +63,7 @@ void HardStatistics::keep(const HardPoint &p) {
 }
 
 void HardStatistics::merge(const HardStatistics &other) {
-    for (std::size_t q = 0; q < quantities; ++q) {
+    for (std::size_t q = 0; q < counts_.size(); ++q) {
         QuantityCounts &a = counts_[q];
         const QuantityCounts &b = other.counts_[q];
         a.points += b.points, a.not_finite += b.not_finite, a.negative += b.negative, a.zero += b.zero;
@@ -78,7 +71,8 @@ void HardStatistics::merge(const HardStatistics &other) {
         for (std::size_t k = 0; k < a.within.size(); ++k) a.within[k] += b.within[k];
         a.largest = std::max(a.largest, b.largest), a.largest_error = std::max(a.largest_error, b.largest_error);
     }
-    for (const HardPoint &p : other.worst_) keep(p);
+    for (const HardPoint &p : other.worst_)
+        if (is_among_worst(p)) keep(p);
 }
 
 std::size_t HardStatistics::failures() const {
@@ -93,18 +87,29 @@ void HardStatistics::write(std::ostream &out) const {
            "undetermined | largest error / bound | largest error, cond < 10 |\n|"
         << " --- |";
     for (int k = 0; k < 12; ++k) out << " --- |";
-    for (std::size_t q = 0; q < quantities; ++q) {
+    for (std::size_t q = 0; q < counts_.size(); ++q) {
         const QuantityCounts &c = counts_[q];
         if (c.points == 0) continue;
-        out << "\n| " << quantity_name(q) << " | " << c.points << " | " << c.not_finite << " | " << c.negative << " | "
+        out << "\n| " << names_[q] << " | " << c.points << " | " << c.not_finite << " | " << c.negative << " | "
             << c.zero << " | " << c.wrong;
         for (std::size_t n : c.within) out << " | " << n;
         out << std::setprecision(2) << " | " << c.undetermined << " | " << c.largest << " | " << c.largest_error
             << " |";
     }
-    out << "\n\n| error / bound | quantity | got | wanted | cond | wi | wo | case |\n"
-        << "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const HardPoint &p : worst_) out << p << "\n";
+    out << "\n\n| error / bound | quantity | got | wanted | cond | " << inputs_ << " |\n| --- |";
+    for (std::size_t k = 0; k < 5 + static_cast<std::size_t>(std::count(inputs_.begin(), inputs_.end(), '|')); ++k)
+        out << " --- |";
+    out << "\n";
+    for (const HardPoint &p : worst_)
+        out << std::setprecision(3) << "| " << p.ratio << " | " << names_[p.quantity] << std::setprecision(9) << " | "
+            << p.got << " | " << p.wanted << std::setprecision(3) << " | " << p.condition << " | " << p.where << " |\n";
+}
+
+std::vector<HardStatistics> statistics_of_grades(std::size_t grades, const std::vector<std::string> &names,
+                                                 const std::string &inputs) {
+    std::vector<HardStatistics> list;
+    for (std::size_t g = 0; g < grades; ++g) list.emplace_back(promises[g], names, inputs);
+    return list;
 }
 
 } // namespace test

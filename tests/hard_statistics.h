@@ -1,14 +1,14 @@
-// How far the numbers of a grade are from the truth over the grid of hard cases, in units of what is allowed: counts,
+// How far the numbers of a grade are from the truth over many hard points, in units of what is allowed: counts,
 // distribution, worst points, and all of it as a table.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <ostream>
+#include <string>
 #include <vector>
-
-#include "hard_truth.h"
 
 namespace test {
 
@@ -27,13 +27,13 @@ inline constexpr std::array<Promise, 3> promises{{{"precise", 0x1p-23, 16 * 0x1p
                                                   {"double", 0x1p-52, 16 * 0x1p-52, 0.25, no_promise}}};
 
 struct HardPoint {
-    double ratio = 0.0; // of the error to what is allowed
-    std::size_t quantity = 0, index = 0;
-    HardPair pair{};
+    std::size_t quantity = 0;
     double got = 0.0, wanted = 0.0, condition = 0.0;
-    bool is_open = false; // nothing is determined, whatever the condition
+    bool is_open = false;   // nothing is determined, whatever the condition
+    bool is_signed = false; // of a quantity that may be negative
+    double ratio = 0.0;     // of the error to what is allowed
+    std::string where;      // its inputs, as cells of a table
 };
-std::ostream &operator<<(std::ostream &out, const HardPoint &point);
 
 struct QuantityCounts {
     std::size_t points = 0;
@@ -47,38 +47,50 @@ struct QuantityCounts {
 
 class HardStatistics {
   public:
-    explicit HardStatistics(const Promise &promise) : promise_(promise) {}
+    // `names` of the quantities; `inputs` is the head of the cells that say where a point is.
+    HardStatistics(const Promise &promise, std::vector<std::string> names, std::string inputs)
+        : promise_(promise), names_(std::move(names)), inputs_(std::move(inputs)), counts_(names_.size()) {}
+
+    const Promise &promise() const { return promise_; }
 
     // Whether the error is above what is allowed.
     bool is_wrong(const HardPoint &point) const;
 
     // `wanted` and its condition from the oracle. `better(quantity)` gives the truth at 60 digits: it is asked for
-    // where the error comes near what is allowed.
-    template <class Better>
-    void see(HardPoint point, Better better) {
+    // where the error comes near what is allowed. `where()` gives the cells of its inputs.
+    template <class Better, class Where>
+    void see(HardPoint point, Better better, Where where) {
         if (is_told_by_error(point) && error_ratio(point) > promise_.asks_again) point.wanted = better(point.quantity);
-        count(point);
+        if (!count(point) || !is_among_worst(point)) return;
+        point.where = where();
+        keep(point);
     }
     void merge(const HardStatistics &other);
 
-    const std::array<QuantityCounts, quantities> &counts() const { return counts_; }
-    const std::vector<HardPoint> &worst() const { return worst_; }
     std::size_t failures() const;
     void write(std::ostream &out) const;
 
   private:
     // Not where nothing is determined, and not below a normal float, where no relative error is asked for.
     bool is_told_by_error(const HardPoint &point) const {
-        return !point.is_open && point.wanted >= 0x1p-126 && promise_.factor * (1.0 + point.condition) < 1.0;
+        return !point.is_open && std::abs(point.wanted) >= 0x1p-126 && promise_.factor * (1.0 + point.condition) < 1.0;
     }
     // Infinity where a condition that is not finite, or a NaN, would say nothing.
     double error_ratio(const HardPoint &point) const;
-    void count(HardPoint point);
+    // Whether it has a ratio, which it is given.
+    bool count(HardPoint &point);
+    bool is_among_worst(const HardPoint &point) const;
     void keep(const HardPoint &point);
 
     Promise promise_;
-    std::array<QuantityCounts, quantities> counts_{};
+    std::vector<std::string> names_;
+    std::string inputs_;
+    std::vector<QuantityCounts> counts_;
     std::vector<HardPoint> worst_; // ten, the worst first
 };
+
+// The same for each of these grades.
+std::vector<HardStatistics> statistics_of_grades(std::size_t grades, const std::vector<std::string> &names,
+                                                 const std::string &inputs);
 
 } // namespace test

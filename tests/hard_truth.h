@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "hard_cases.h"
@@ -23,9 +24,10 @@ enum Quantity : std::size_t {
     quantity_g2 = quantity_fresnel + 3,      // correlated, separable
     quantity_shared = quantity_g2 + 2,       // correlated and separable, of three channels
     quantity_per_lobe = quantity_shared + 6, // likewise
-    quantities = quantity_per_lobe + 6
+    quantity_density = quantity_per_lobe + 6, // of drawing wi from wo: by the shared model, by lobes of weight 1 each
+    quantities = quantity_density + 2
 };
-const char *quantity_name(std::size_t quantity);
+const std::vector<std::string> &quantity_names();
 
 // Where a number has no value to compare with: Lambda at the horizon, theta_d below it.
 constexpr double no_value = -1.0;
@@ -130,7 +132,7 @@ std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &w
     q.fill(none);
     const oracle::VecOf<T> h = wi + wo;
     const T p_i = oracle::plane(c.x, wi), p_o = oracle::plane(c.x, wo);
-    const bool up_i = none < p_i, visible = up_i && none < p_o && none < wi.z && none < wo.z;
+    const bool up_i = none < p_i, sees = none < p_o && none < wo.z, visible = up_i && sees && none < wi.z;
     const std::size_t lobes = c.weight.size();
 
     std::vector<T> ndf(lobes, none), sigma_i(lobes, none), sigma_o(lobes, none);
@@ -143,7 +145,7 @@ std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &w
             sum_i = sum_i + c.weight[k] * sigma_i[k];
             beyond = beyond + c.weight[k] * oracle::beyond_plane(c.widened[k], wi);
         }
-        if (visible) {
+        if (sees) {
             sigma_o[k] = oracle::sigma(c.widened[k], wo);
             sum_o = sum_o + c.weight[k] * sigma_o[k];
         }
@@ -152,6 +154,11 @@ std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &w
     q[quantity_sigma] = p_i < none ? T(no_value) : sum_i;
     q[quantity_lambda] = up_i ? beyond / p_i : T(no_value);
     q[quantity_g1] = up_i ? p_i / sum_i : none;
+    if (sees) {
+        q[quantity_density] = sum_ndf / (T(4.0) * sum_o);
+        for (std::size_t k = 0; k < lobes; ++k)
+            q[quantity_density + 1] = q[quantity_density + 1] + ndf[k] / (T(4.0) * sigma_o[k]);
+    }
     if (!visible) {
         q[quantity_theta_d] = T(no_value);
         for (std::size_t channel = 0; channel < 3; ++channel) q[quantity_fresnel + channel] = T(no_value);

@@ -5,7 +5,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include "big.h"
@@ -60,14 +62,30 @@ double setting(const char *name, double by_default) {
     return text ? std::atof(text) : by_default;
 }
 
+constexpr const char *inputs = "wi | wo | X (alphas, rho, mean), lobes (weight, alpha)";
+
+std::string cells_of(const HardCase &c, const HardPair &pair) {
+    std::ostringstream out;
+    out << std::setprecision(9);
+    for (const auto &k : {pair.wi, pair.wo}) out << "(" << k[0] << ", " << k[1] << ", " << k[2] << ") | ";
+    out << "X (" << c.x.alpha_x << ", " << c.x.alpha_y << ", " << c.x.rho << ", " << c.x.mean_x << ", " << c.x.mean_y
+        << "), ";
+    if (c.lobes.size() > 2)
+        out << c.lobes.size() << " lobes";
+    else
+        for (const oracle::Lobe &lobe : c.lobes) out << "lobe (" << lobe.weight << ", " << lobe.alpha << ") ";
+    return out.str();
+}
+
 struct Settings {
     double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
     double checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01); // of the points, at 60 digits too
 };
 
 struct Results {
-    std::vector<HardStatistics> grades{test::promises.begin(), test::promises.end()};
-    HardStatistics textbook{{"textbook form, in float", 0x1p-23, 16 * 0x1p-23, test::no_promise, 1e-5}};
+    std::vector<HardStatistics> grades = test::statistics_of_grades(3, test::quantity_names(), inputs);
+    HardStatistics textbook{
+        {"textbook form, in float", 0x1p-23, 16 * 0x1p-23, test::no_promise, 1e-5}, test::quantity_names(), inputs};
     std::size_t seen = 0, oracle_checked = 0, oracle_wrong = 0;
     double oracle_worst = 0.0; // error over what is allowed in double
 
@@ -102,8 +120,8 @@ bool sign_is_open(const HardCase &c, const std::array<float, 3> &k, double epsil
 // density's peak about a mean slope, a density of 0 whose exponent is not known well enough to be one.
 bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, const test::Promise &promise,
              std::size_t quantity, double wanted, double got, const Dual &theta_d) {
-    const bool has_fresnel =
-        quantity >= test::quantity_fresnel && quantity != test::quantity_g2 && quantity != test::quantity_g2 + 1;
+    const bool has_fresnel = quantity >= test::quantity_fresnel && quantity < test::quantity_density &&
+                             quantity != test::quantity_g2 && quantity != test::quantity_g2 + 1;
     if (has_fresnel && wanted != 0.0 &&
         test::is_near_knot(theta_d.value, promise.factor * (1.0 + theta_d.condition()) * theta_d.value))
         return true;
@@ -117,7 +135,7 @@ bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, cons
 
 using Values = std::vector<std::vector<double>>;
 
-void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &pairs,
+void compare(const HardCase &c, const std::vector<HardPair> &pairs,
              const std::vector<Values> &values, const Settings &settings, std::size_t first, std::size_t step,
              Results &results) {
     const Truths truths(c);
@@ -139,10 +157,12 @@ void compare(std::size_t index, const HardCase &c, const std::vector<HardPair> &
             const auto rounded = static_cast<double>(wide[q]),
                        wanted = wide[q] > 0.0L ? std::max(rounded, 0x1p-1074) : rounded;
             if (wanted == test::no_value) return;
-            HardPoint point{0.0, q, index, pairs[k], got, wanted, wanted == 0.0 ? 0.0 : dual[q].condition()};
+            HardPoint point;
+            point.quantity = q, point.got = got, point.wanted = wanted;
+            point.condition = wanted == 0.0 ? 0.0 : dual[q].condition();
             point.is_open = statistics.is_wrong(point) &&
                             is_open(c, truths, pairs[k], promise, q, wanted, got, dual[test::quantity_theta_d]);
-            statistics.see(point, better);
+            statistics.see(point, better, [&] { return cells_of(c, pairs[k]); });
         };
         for (std::size_t g = 0; g < values.size(); ++g) { // double only where the device has it
             const test::Promise &promise = test::promises[g];
@@ -192,7 +212,7 @@ Results run(const Settings &settings) {
         for (std::size_t g = 0; g < grades; ++g) values[g] = probes[g].run(c, pairs);
         std::vector<std::thread> pool;
         for (std::size_t t = 0; t < threads; ++t)
-            pool.emplace_back([&, t] { compare(index, c, pairs, values, settings, t, threads, parts[t]); });
+            pool.emplace_back([&, t] { compare(c, pairs, values, settings, t, threads, parts[t]); });
         for (std::thread &thread : pool) thread.join();
         if (index % report_every == 0) report(merged(parts));
     }
