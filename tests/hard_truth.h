@@ -115,6 +115,12 @@ inline double second_order(const HardCase &c, const HardPair &pair, double epsil
     return most;
 }
 
+// A mean plane seen so nearly edge on that rounding decides whether it is seen: no sign is right or wrong.
+inline bool is_sign_open(const HardCase &c, const std::array<float, 3> &k, double epsilon) {
+    const double x = std::abs(k[0] * c.x.mean_x), y = std::abs(k[1] * c.x.mean_y), z = std::abs(k[2]);
+    return x + y > 0.0 && std::abs(k[2] - k[0] * c.x.mean_x - k[1] * c.x.mean_y) <= 4 * epsilon * (x + y + z);
+}
+
 // A direction so low over a surface that is a mirror along an axis that the slope's spread seen from there, squared, is
 // below a float's range: s below 2^-63 counts as 0 (cl/beckmann.clh).
 inline bool is_spread_lost(const HardCase &c, const std::array<float, 3> &k) {

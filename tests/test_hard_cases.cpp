@@ -8,12 +8,12 @@
 #include <iomanip>
 #include <optional>
 #include <sstream>
-#include <thread>
 
 #include "big.h"
 #include "dual.h"
 #include "hard_probe.h"
 #include "hard_statistics.h"
+#include "hard_threads.h"
 #include "textbook.h"
 
 using test::Big;
@@ -110,12 +110,6 @@ void check_oracle(const std::array<Wide, test::quantities> &wide, const std::arr
     }
 }
 
-// A mean plane seen so nearly edge on that rounding decides whether it is seen: no sign is right or wrong.
-bool sign_is_open(const HardCase &c, const std::array<float, 3> &k, double epsilon) {
-    const double x = std::abs(k[0] * c.x.mean_x), y = std::abs(k[1] * c.x.mean_y), z = std::abs(k[2]);
-    return x + y > 0.0 && std::abs(k[2] - k[0] * c.x.mean_x - k[1] * c.x.mean_y) <= 4 * epsilon * (x + y + z);
-}
-
 // Whether the condition number, a first derivative, says too little: a curve's kink within the angle's error, a
 // density's peak about a mean slope, a density of 0 whose exponent is not known well enough to be one.
 bool is_open(const HardCase &c, const Truths &truths, const HardPair &pair, const test::Promise &promise,
@@ -166,7 +160,7 @@ void compare(const HardCase &c, const std::vector<HardPair> &pairs,
         };
         for (std::size_t g = 0; g < values.size(); ++g) { // double only where the device has it
             const test::Promise &promise = test::promises[g];
-            if (sign_is_open(c, pairs[k].wi, promise.epsilon) || sign_is_open(c, pairs[k].wo, promise.epsilon))
+            if (test::is_sign_open(c, pairs[k].wi, promise.epsilon) || test::is_sign_open(c, pairs[k].wo, promise.epsilon))
                 continue;
             for (std::size_t q = 0; q < test::quantities; ++q) see(results.grades[g], promise, q, values[g][q][k]);
         }
@@ -203,17 +197,15 @@ Results run(const Settings &settings) {
     std::vector<test::HardProbe> probes;
     const std::size_t grades = context.info().has_double ? 3 : 2;
     for (std::size_t g = 0; g < grades; ++g) probes.emplace_back(context, static_cast<smx::Grade>(g));
-    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<Results> parts(threads);
+    std::vector<Results> parts(test::host_threads());
     for (std::size_t index = 0; static_cast<double>(index * pairs_per_case) < settings.points; ++index) {
         const HardCase c = test::hard_case(index);
         const std::vector<HardPair> pairs = test::hard_pairs(c, pairs_per_case, index);
         std::vector<Values> values(grades);
         for (std::size_t g = 0; g < grades; ++g) values[g] = probes[g].run(c, pairs);
-        std::vector<std::thread> pool;
-        for (std::size_t t = 0; t < threads; ++t)
-            pool.emplace_back([&, t] { compare(c, pairs, values, settings, t, threads, parts[t]); });
-        for (std::thread &thread : pool) thread.join();
+        test::in_threads(parts, [&](std::size_t first, std::size_t step, Results &part) {
+            compare(c, pairs, values, settings, first, step, part);
+        });
         if (index % report_every == 0) report(merged(parts));
     }
     const Results all = merged(parts);
