@@ -108,6 +108,9 @@ HardCase hard_case(std::size_t index) {
     c.x.rho = as_float(correlations[index / 7 % correlations.size()]);
     const auto &mean = means[index / 3 % means.size()];
     c.x.mean_x = as_float(mean[0]), c.x.mean_y = as_float(mean[1]);
+    if (index % 8 == 1) c.x = {c.x.alpha_x, c.x.alpha_x, 0.0, 0.0, 0.0};
+    if (index % 8 == 3) c.x.mean_x = c.x.mean_y = 0.0;
+    c.is_equidistant = index / 2 % 2 == 1;
     return c;
 }
 
@@ -125,10 +128,14 @@ std::vector<HardPair> hard_pairs(const HardCase &c, std::size_t count, uint64_t 
     return pairs;
 }
 
-std::array<float, hard_knots> hard_curve(std::size_t set, std::size_t channel) {
-    const float share = 1.0f / static_cast<float>(1 + set % 4);
+HardCurve hard_theta_d(const HardCase &c) {
+    return c.is_equidistant ? HardCurve{0.0f, 0.25f, 0.5f, 0.75f, 1.0f} : HardCurve{0.0f, 0.3f, 0.301f, 0.9f, 1.0f};
+}
+
+HardCurve hard_curve(const HardCase &c, std::size_t set, std::size_t channel) {
+    const float share = 1.0f / static_cast<float>(1 + set % 4), level = c.is_equidistant ? 1.0f : 0.0f;
     if (channel == 0) return {0.04f * share, 0.05f, 0.051f, 0.5f, 1.0f};
-    if (channel == 1) return {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    if (channel == 1) return {level, level, level, level, level};
     return {1e-10f, 1e-10f, share, 0.25f, 0.0f};
 }
 

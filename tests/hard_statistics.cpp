@@ -20,9 +20,12 @@ double HardStatistics::error_ratio(const HardPoint &p) const {
 }
 
 bool HardStatistics::is_wrong(const HardPoint &p) const {
-    if (std::abs(p.wanted) < smallest_float)
-        return std::abs(p.got) > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
+    if (std::abs(p.wanted) < smallest_float) return std::abs(p.got) > (p.wanted == 0.0 ? 0.0 : 2 * smallest_float);
     return error_ratio(p) > 1.0 || (p.condition < 10.0 && std::abs(p.got / p.wanted - 1.0) > promise_.well_conditioned);
+}
+
+bool HardStatistics::may_be_zero(const HardPoint &p) const {
+    return p.is_signed || p.may_cancel || std::log(p.wanted / smallest_float) <= promise_.factor * (1.0 + p.condition);
 }
 
 bool HardStatistics::count(HardPoint &p) {
@@ -35,9 +38,9 @@ bool HardStatistics::count(HardPoint &p) {
     if (is_small && !is_wrong(p)) return ++c.within[0], false;
     const bool undetermined = p.is_open || (std::isfinite(p.condition) && promise_.factor * (1.0 + p.condition) >= 1.0);
     c.undetermined += undetermined;
+    if (is_small) return c.wrong += !undetermined, !undetermined;
+    if (p.got == 0.0 && !(undetermined && may_be_zero(p))) return ++c.zero, true;
     if (undetermined) return false;
-    if (is_small) return ++c.wrong, true;
-    if (p.got == 0.0) return ++c.zero, true;
     p.ratio = error_ratio(p);
     c.largest = std::max(c.largest, p.ratio);
     const double error = std::abs(p.got / p.wanted - 1.0);
@@ -77,7 +80,7 @@ void HardStatistics::merge(const HardStatistics &other) {
 
 std::size_t HardStatistics::failures() const {
     std::size_t sum = 0;
-    for (const QuantityCounts &c : counts_) sum += c.not_finite + c.negative + c.zero + c.wrong;
+    for (const QuantityCounts &c : counts_) sum += c.failures();
     return sum;
 }
 

@@ -29,10 +29,11 @@ inline constexpr std::array<Promise, 3> promises{{{"precise", 0x1p-23, 16 * 0x1p
 struct HardPoint {
     std::size_t quantity = 0;
     double got = 0.0, wanted = 0.0, condition = 0.0;
-    bool is_open = false;   // nothing is determined, whatever the condition
-    bool is_signed = false; // of a quantity that may be negative
-    double ratio = 0.0;     // of the error to what is allowed
-    std::string where;      // its inputs, as cells of a table
+    bool is_open = false;    // nothing is determined, whatever the condition
+    bool is_signed = false;  // of a quantity that may be negative
+    bool may_cancel = false; // of one that is 0 at a place, and around it a difference
+    double ratio = 0.0;      // of the error to what is allowed
+    std::string where;       // its inputs, as cells of a table
 };
 
 struct QuantityCounts {
@@ -43,6 +44,8 @@ struct QuantityCounts {
     std::array<std::size_t, 4> within{}; // error at most 1/64, 1/16, 1/4, 1 of what is allowed
     double largest = 0.0;                // error over what is allowed
     double largest_error = 0.0;          // relative, where the condition is below 10
+
+    std::size_t failures() const { return not_finite + negative + zero + wrong; }
 };
 
 class HardStatistics {
@@ -67,6 +70,7 @@ class HardStatistics {
     }
     void merge(const HardStatistics &other);
 
+    const std::vector<QuantityCounts> &counts() const { return counts_; }
     std::size_t failures() const;
     void write(std::ostream &out) const;
 
@@ -77,6 +81,8 @@ class HardStatistics {
     }
     // Infinity where a condition that is not finite, or a NaN, would say nothing.
     double error_ratio(const HardPoint &point) const;
+    // Whether what is not determined is so by a factor that takes it below a normal float; or by a difference.
+    bool may_be_zero(const HardPoint &point) const;
     // Whether it has a ratio, which it is given.
     bool count(HardPoint &point);
     bool is_among_worst(const HardPoint &point) const;

@@ -20,14 +20,27 @@ enum Quantity : std::size_t {
     quantity_lambda,
     quantity_g1,
     quantity_theta_d,
-    quantity_fresnel,                        // of three channels
-    quantity_g2 = quantity_fresnel + 3,      // correlated, separable
-    quantity_shared = quantity_g2 + 2,       // correlated and separable, of three channels
-    quantity_per_lobe = quantity_shared + 6, // likewise
+    quantity_fresnel,                         // of three channels
+    quantity_g2 = quantity_fresnel + 3,       // correlated, separable
+    quantity_shared = quantity_g2 + 2,        // correlated and separable, of three channels
+    quantity_per_lobe = quantity_shared + 6,  // likewise
     quantity_density = quantity_per_lobe + 6, // of drawing wi from wo: by the shared model, by lobes of weight 1 each
-    quantities = quantity_density + 2
+    quantity_less = quantity_density + 2,     // f cos, shared, red: without masking, without shadowing, without either
+    quantities = quantity_less + 3
 };
 const std::vector<std::string> &quantity_names();
+
+inline bool has_fresnel(std::size_t quantity) {
+    return (quantity >= quantity_fresnel && quantity < quantity_g2) ||
+           (quantity >= quantity_shared && quantity < quantity_density) || quantity >= quantity_less;
+}
+
+// Of the curve that ends at 0.
+inline bool has_steep_fresnel(std::size_t quantity) {
+    if (quantity < quantity_fresnel || quantity >= quantity_density) return false;
+    return quantity < quantity_g2 ? quantity == quantity_fresnel + 2
+                                  : quantity >= quantity_shared && (quantity - quantity_shared) % 3 == 2;
+}
 
 // Where a number has no value to compare with: Lambda at the horizon, theta_d below it.
 constexpr double no_value = -1.0;
@@ -39,6 +52,7 @@ struct CaseOf {
     std::vector<oracle::GaussianOf<T>> widened;
     std::vector<bool> has_density;
     std::array<T, hard_knots> knots;
+    const HardCase *of; // its curves
 };
 
 // `variable(value, number)` makes the inputs: 0..2 wi, 3..5 wo, 6..10 X, 11 all alphas together, 12 all knots together.
@@ -48,6 +62,7 @@ inline constexpr std::size_t hard_variables = 13;
 template <class T, class Variable>
 CaseOf<T> case_of(const HardCase &c, Variable variable) {
     CaseOf<T> out;
+    out.of = &c;
     out.x = oracle::gaussian_of<T>(variable(c.x.alpha_x, 6), variable(c.x.alpha_y, 7), variable(c.x.rho, 8),
                                    variable(c.x.mean_x, 9), variable(c.x.mean_y, 10));
     const bool is_plane = c.x.alpha_x > 0.0 && c.x.alpha_y > 0.0;
@@ -57,7 +72,8 @@ CaseOf<T> case_of(const HardCase &c, Variable variable) {
         out.widened.push_back(oracle::widened_by(out.x, out.alpha.back()));
         out.has_density.push_back(lobe.alpha > 0.0 || is_plane);
     }
-    for (std::size_t k = 0; k < hard_knots; ++k) out.knots[k] = variable(static_cast<double>(hard_theta_d[k]), 12);
+    const HardCurve knots = hard_theta_d(c);
+    for (std::size_t k = 0; k < hard_knots; ++k) out.knots[k] = variable(static_cast<double>(knots[k]), 12);
     return out;
 }
 
@@ -71,15 +87,16 @@ template <class T>
 T linear_between_knots(const CaseOf<T> &c, std::size_t set, std::size_t channel, const T &angle) {
     std::size_t k = 0;
     while (k + 2 < hard_knots && !(angle < c.knots[k + 1])) ++k;
-    const auto curve = hard_curve(set, channel);
+    const HardCurve curve = hard_curve(*c.of, set, channel);
     const T share = (angle - c.knots[k]) / (c.knots[k + 1] - c.knots[k]);
     return T(static_cast<double>(curve[k])) * (T(1.0) - share) + T(static_cast<double>(curve[k + 1])) * share;
 }
 
 // Whether an angle that is off by `error` may be on the other side of a knot, where the curve's slope is another.
-inline bool is_near_knot(double angle, double error) {
+inline bool is_near_knot(const HardCase &c, double angle, double error) {
+    const HardCurve knots = hard_theta_d(c);
     for (std::size_t k = 1; k + 1 < hard_knots; ++k)
-        if (std::abs(angle - static_cast<double>(hard_theta_d[k])) <= error) return true;
+        if (std::abs(angle - static_cast<double>(knots[k])) <= error) return true;
     return false;
 }
 
@@ -181,6 +198,11 @@ std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &w
         for (std::size_t g = 0; g < 2; ++g)
             q[quantity_shared + 3 * g + channel] = f * sum_ndf * q[quantity_g2 + g] * quarter;
     }
+    // Without masking f cos goes like 1 / p_o, which is held at 1e-17.
+    const T held(static_cast<double>(1e-17f)), seen = p_o < held ? held : p_o, lit = q[quantity_fresnel] * sum_ndf;
+    q[quantity_less] = lit / (T(4.0) * (seen + beyond * p_o / p_i));
+    q[quantity_less + 1] = lit / (T(4.0) * sum_o);
+    q[quantity_less + 2] = lit / (T(4.0) * seen);
     for (std::size_t k = 0; k < lobes; ++k) {
         const T by_masking[2] = {ndf[k] * oracle::g2_correlated(p_i, sigma_i[k], p_o, sigma_o[k]) * quarter,
                                  ndf[k] * oracle::g2_separable(p_i, sigma_i[k], p_o, sigma_o[k]) * quarter};

@@ -34,11 +34,11 @@ float ndf(float alpha_x, float alpha_y, const Angles &m) {
 }
 
 // The red curve of the first set.
-float fresnel(float theta_d) {
-    const auto curve = hard_curve(0, 0);
+float fresnel(const HardCase &c, float theta_d) {
+    const HardCurve curve = hard_curve(c, 0, 0), knots = hard_theta_d(c);
     std::size_t k = 0;
-    while (k + 2 < hard_knots && theta_d >= hard_theta_d[k + 1]) ++k;
-    return curve[k] + (curve[k + 1] - curve[k]) * (theta_d - hard_theta_d[k]) / (hard_theta_d[k + 1] - hard_theta_d[k]);
+    while (k + 2 < hard_knots && theta_d >= knots[k + 1]) ++k;
+    return curve[k] + (curve[k + 1] - curve[k]) * (theta_d - knots[k]) / (knots[k + 1] - knots[k]);
 }
 
 } // namespace
@@ -60,11 +60,12 @@ std::vector<std::pair<std::size_t, double>> textbook(const HardCase &c, const Ha
     const float g2 = 1.0f / (1.0f + lambda_i + lambda_o);
     const float cos_d = (ix * ox + iy * oy + iz * oz), theta_d = std::acos(cos_d) / 2.0f / (pi / 2.0f);
     return {{quantity_ndf, d},
+            {quantity_sigma, i.cosine * (1.0f + lambda_i)},
             {quantity_lambda, lambda_i},
             {quantity_g1, 1.0f / (1.0f + lambda_i)},
             {quantity_g2, g2},
             {quantity_theta_d, theta_d},
-            {quantity_shared, fresnel(theta_d) * d * g2 / (4.0f * i.cosine * o.cosine) * i.cosine}};
+            {quantity_shared, fresnel(c, theta_d) * d * g2 / (4.0f * i.cosine * o.cosine) * i.cosine}};
 }
 
 } // namespace test
