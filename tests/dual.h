@@ -62,4 +62,14 @@ struct Dual {
     }
 };
 
+// A number as a double, without what it carries.
+template <class T>
+double value_of(const T &number) {
+    return static_cast<double>(number);
+}
+template <std::size_t N>
+double value_of(const Dual<N> &number) {
+    return number.value;
+}
+
 } // namespace test

@@ -1,5 +1,6 @@
-// Slopes that are drawn, by the inverse of their distributions, in any arithmetic (oracle_formulas.h). A root is found in
-// double and refined in T by Newton's steps, which give numbers that carry derivatives those of the implicit function.
+// Slopes that are drawn, by the inverse of their distributions, in any arithmetic (oracle_formulas.h). A root is found
+// in double and refined in T by Newton's steps, which give numbers that carry derivatives those of the implicit
+// function.
 //   Heitz, d'Eon 2014, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals"
 #pragma once
 
@@ -32,9 +33,7 @@ struct SlopesSeen {
         using std::erfc;
         all = v + (AllSlopes::density(v) - v * erfc(v)) / T(2.0);
     }
-    T share_below(const T &t) const {
-        return (v * AllSlopes::share_below(t) + AllSlopes::density(t) / T(2.0)) / all;
-    }
+    T share_below(const T &t) const { return (v * AllSlopes::share_below(t) + AllSlopes::density(t) / T(2.0)) / all; }
     T density(const T &t) const { return (v - t) * AllSlopes::density(t) / all; }
 };
 
@@ -73,8 +72,8 @@ T visible_slope(const T &v, double v_value, const T &u, double u_value) {
 }
 
 // Normal of the facet with these slopes along the direction to the viewer wo and across it, in standard deviations
-// times sqrt(2). With S twice the covariance and w = (wo.x, wo.y), s^2 = w'Sw, they are S w / s and sqrt(det S) J w / s,
-// J the turn by a right angle: the symmetric root of S, applied to w / |root w| and its turn. s > 0.
+// times sqrt(2). With S twice the covariance and w = (wo.x, wo.y), s^2 = w'Sw, they are S w / s and sqrt(det S) J w /
+// s, J the turn by a right angle: the symmetric root of S, applied to w / |root w| and its turn. s > 0.
 template <class T>
 VecOf<T> facet_along_view(const GaussianOf<T> &g, const VecOf<T> &wo, const T &along, const T &across) {
     using std::sqrt;

@@ -1,6 +1,7 @@
-// Directions that renderers draw (cl/visible_normals.clh) on the grid of hard cases, in three grades, against the oracle:
-// the lobe, the normal of its facet, and the direction that it mirrors. SLOPEMIX_HARD_POINTS says how many,
-// SLOPEMIX_HARD_CHECKED what share of them is evaluated at 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
+// Directions that renderers draw (cl/visible_normals.clh) on the grid of hard cases, in three grades, against the
+// oracle: the lobe, the normal of its facet, and the direction that it mirrors. SLOPEMIX_HARD_POINTS says how many,
+// SLOPEMIX_HARD_CHECKED what share of them is evaluated at 60 digits too, SLOPEMIX_HARD_REPORT where to write the
+// tables.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -81,16 +82,8 @@ std::vector<Draw> hard_draws(const HardCase &c, std::size_t count, uint64_t seed
     return draws;
 }
 
-template <class T>
-double value_of(const T &number) {
-    if constexpr (std::is_same_v<T, Dual>)
-        return number.value;
-    else
-        return static_cast<double>(number);
-}
-
-// A slope in the tails changes by less than the share by which its uniform number does, and is rounded all the same: as a
-// cause of errors it counts by itself at least.
+// A slope in the tails changes by less than the share by which its uniform number does, and is rounded all the same: as
+// a cause of errors it counts by itself at least.
 template <class T>
 T counted(T slope, [[maybe_unused]] std::size_t index) {
     if constexpr (std::is_same_v<T, Dual>) slope.by[index] = std::max(std::abs(slope.by[index]), std::abs(slope.value));
@@ -108,7 +101,7 @@ std::array<T, numbers> truth(const HardCase &c, const Draw &d, Variable variable
     const double u1 = clamped(d.u[1]), u2 = clamped(d.u[2]);
     using std::sqrt;
     const T v = oracle::plane(g, wo) / sqrt(oracle::spread2(g, wo));
-    const T along = counted(oracle::visible_slope(v, value_of(v), variable(u1, 9), u1), 9);
+    const T along = counted(oracle::visible_slope(v, test::value_of(v), variable(u1, 9), u1), 9);
     const T across = counted(oracle::gaussian_slope(variable(u2, 10), u2), 10);
     const oracle::VecOf<T> m = oracle::facet_along_view(g, wo, along, across), wi = oracle::mirrored_about(wo, m);
     return {m.x, m.y, m.z, wi.x, wi.y, wi.z};
@@ -124,8 +117,8 @@ bool has_azimuth(const HardCase &c, const Draw &d) {
     return oracle::spread2(oracle::widened_by(x, Wide(c.lobes[d.lobe].alpha)), wo) > 0x1p-120L;
 }
 
-// Whether u.x may choose a lobe of this alpha, its share's ends `error` off: by weights and, of the shared model, by what
-// wo sees.
+// Whether u.x may choose a lobe of this alpha, its share's ends `error` off: by weights and, of the shared model, by
+// what wo sees.
 bool may_choose(const HardCase &c, const Draw &d, bool per_lobe, double alpha2, double error) {
     const auto wo = test::direction_of<Wide>(d.wo, 0, constant(std::type_identity<Wide>()));
     const oracle::GaussianOf<Wide> x =
@@ -210,7 +203,8 @@ void compare(const HardCase &c, const std::vector<Draw> &draws, const std::vecto
             if (!big) big = truth<Big>(c, d, constant(std::type_identity<Big>()));
             return static_cast<double>((*big)[q]);
         };
-        if (static_cast<double>(results.oracle_checked) < settings.checked_share * static_cast<double>(++results.seen)) {
+        if (static_cast<double>(results.oracle_checked) <
+            settings.checked_share * static_cast<double>(++results.seen)) {
             ++results.oracle_checked;
             for (std::size_t q = 0; q < numbers; ++q)
                 results.oracle_wrong +=

@@ -1,23 +1,34 @@
 // Slopes and facets that the reference draws (cl/quantile.clh, cl/draw_facets.cl) against the oracle, on hard surfaces:
 // quantiles down to the least mass that is drawn, facets of X and their densities over solid angle. The kernels are of
-// floats in every grade. SLOPEMIX_HARD_POINTS says how many.
+// floats in every grade. SLOPEMIX_HARD_POINTS says how many, SLOPEMIX_HARD_CHECKED what share of them is evaluated at
+// 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
 
+#include "big.h"
 #include "device_buffer.h"
 #include "dual.h"
 #include "hard_probe.h"
+#include "hard_statistics.h"
+#include "hard_threads.h"
+#include "oracle_draws.h"
+
+using test::Big;
+using test::HardPoint;
+using test::HardStatistics;
+using test::HardSurface;
 
 namespace {
 
 using Wide = long double;
-using Dual = test::Dual<7>; // t1, t2, X
+using Dual = test::Dual<7>; // t1, t2, X; of a slope, the mass
 
-constexpr double epsilon = 0x1p-23;
-constexpr double factor = 16 * epsilon; // of (1 + condition)
-constexpr double well_conditioned = 1e-5;
-constexpr double smallest_float = 0x1p-126;
+constexpr std::size_t draws_per_case = 1000;
+const std::vector<std::string> names{"slope", "normal x", "normal y", "normal z", "1 / z", "density"};
 
 struct Place {
     cl_uint whole, strata, graded;
@@ -63,31 +74,29 @@ std::vector<Draw> draws(std::size_t count, uint64_t seed) {
 }
 
 // Mass of the first `before` strata and a fraction of the next.
-Wide mass_of_strata(const Place &p, cl_uint before, Wide fraction) {
+template <class T>
+T mass_of_strata(const Place &p, cl_uint before, const T &fraction) {
     const auto mass_of = [&](cl_uint count) { // of whole ones, no more than half of all
-        const cl_uint graded = std::min(count, p.graded);
-        return p.graded ? Wide(graded) * graded / (2.0L * p.graded) + (count - graded) : Wide(count);
+        const double graded = std::min(count, p.graded);
+        return p.graded ? T(graded * graded) / T(2.0 * p.graded) + T(count - graded) : T(static_cast<double>(count));
     };
-    const Wide begin = mass_of(before);
-    return (begin + (mass_of(before + 1) - begin) * fraction) / (p.strata - p.graded);
+    const T begin = mass_of(before);
+    return (begin + (mass_of(before + 1) - begin) * fraction) / T(static_cast<double>(p.strata - p.graded));
 }
 
-// Error of a slope t of exp(-t^2) / sqrt(pi) at its place, over what is allowed. The mass below t is compared, from the
-// nearer end, and its difference told in t.
-double slope_error(const Place &p, double t) {
-    const auto fraction = static_cast<Wide>(p.fraction);
-    const Wide half = 0.5L, whole = p.whole;
-    const bool is_low = whole + fraction < half * p.strata;
-    const Wide mass =
-        is_low ? mass_of_strata(p, p.whole, fraction) : mass_of_strata(p, p.strata - 1 - p.whole, 1.0L - fraction);
-    const Wide side = is_low ? -1.0L : 1.0L;
-    const Wide density = std::exp(-Wide(t) * t) / std::sqrt(oracle::pi_of<Wide>());
-    const Wide off = std::abs(std::erfc(side * Wide(t)) / 2.0L - mass) / density;
-    const Wide condition = mass / (density * std::max(std::abs(Wide(t)), Wide(smallest_float)));
-    return static_cast<double>(off / (std::abs(Wide(t)) * factor * (1.0L + condition)));
+// A slope of exp(-t^2) / sqrt(pi) at its place, by the mass beyond it on the nearer side, which is what conditions
+// count.
+template <class T, class Variable>
+T slope_of(const Place &p, Variable make) {
+    const bool is_low = static_cast<double>(p.whole) + static_cast<double>(p.fraction) < 0.5 * p.strata;
+    const T fraction(static_cast<double>(p.fraction));
+    const T mass =
+        is_low ? mass_of_strata(p, p.whole, fraction) : mass_of_strata(p, p.strata - 1 - p.whole, T(1.0) - fraction);
+    const T t = oracle::gaussian_slope(make(mass, 0), test::value_of(mass));
+    return is_low ? t : T(0.0) - t;
 }
 
-// The facet of slopes t1, t2 deviations along X's principal axes, by angles: x, y, z, 1 / z, and its density.
+// The facet of slopes t1, t2 deviations along X's principal axes: x, y, z, 1 / z, and its density.
 template <class T>
 std::array<T, 5> facet(const T &t1, const T &t2, const T &ax, const T &ay, const T &rho, const T &mx, const T &my) {
     using std::atan2, std::exp, std::sqrt;
@@ -110,95 +119,159 @@ std::array<T, 5> facet(const T &t1, const T &t2, const T &ax, const T &ay, const
             peak * exp(T(0.0) - t1 * t1 - t2 * t2) * inv_z * inv_z * inv_z};
 }
 
-struct Tally {
-    std::size_t points = 0, wrong = 0;
-    double worst = 0.0;
-    std::string where;
+const auto constant = []<class T>(std::type_identity<T>) { return [](T value, std::size_t) { return value; }; };
+constexpr auto variable = [](Dual value, std::size_t index) { return Dual::variable(value.value, index); };
 
-    void see(double ratio, const std::string &what) {
-        ++points;
-        if (!(ratio <= 1.0)) ++wrong;
-        if (!(ratio <= worst)) worst = ratio, where = what;
+template <class T, class Variable>
+std::array<T, 5> facet_of(const HardSurface &x, double t1, double t2, Variable make) {
+    return facet(make(T(t1), 0), make(T(t2), 1), make(T(x.alpha_x), 2), make(T(x.alpha_y), 3), make(T(x.rho), 4),
+                 make(T(x.mean_x), 5), make(T(x.mean_y), 6));
+}
+
+struct Results {
+    HardStatistics precise = test::statistics_of_grades(1, names, "place, or slopes and X (alphas, rho, mean)").front();
+    std::size_t seen = 0, oracle_checked = 0, oracle_wrong = 0;
+    double checked_share = 0.01;
+
+    bool is_to_be_checked() {
+        return static_cast<double>(oracle_checked) < checked_share * static_cast<double>(++seen);
+    }
+    void check(Wide wide, double condition, const Big &big) {
+        ++oracle_checked;
+        const auto wanted = static_cast<double>(big);
+        oracle_wrong += std::abs(static_cast<double>(wide) - wanted) >
+                        test::promises[2].factor / 16 * (1.0 + condition) * std::abs(wanted);
+    }
+    void merge(const Results &other) {
+        precise.merge(other.precise);
+        seen += other.seen, oracle_checked += other.oracle_checked, oracle_wrong += other.oracle_wrong;
     }
 };
 
-void compare_facets(const test::HardSurface &x, const std::vector<float> &out, std::size_t count, Tally &tally) {
-    for (std::size_t k = 0; k < count; ++k) {
-        const double in[] = {out[k], out[count + k], x.alpha_x, x.alpha_y, x.rho, x.mean_x, x.mean_y};
-        Dual dual[7];
-        Wide wide[7];
-        for (std::size_t j = 0; j < 7; ++j) dual[j] = Dual::variable(in[j], j), wide[j] = in[j];
-        const auto conditions = facet(dual[0], dual[1], dual[2], dual[3], dual[4], dual[5], dual[6]);
-        const auto wanted = facet(wide[0], wide[1], wide[2], wide[3], wide[4], wide[5], wide[6]);
-        const bool has_density = x.alpha_x > 0.0 && x.alpha_y > 0.0;
-        for (std::size_t q = 0; q < (has_density ? 5 : 4); ++q) {
-            const double got = out[(2 + q) * count + k], truth = static_cast<double>(wanted[q]);
-            if (std::abs(truth) < smallest_float) continue;
-            const double condition = conditions[q].condition(), error = std::abs(got / truth - 1.0);
-            double ratio = error / (factor * (1.0 + condition));
-            if (condition < 10.0) ratio = std::max(ratio, error / well_conditioned);
-            const bool is_sound = std::isfinite(got) && (q < 2 || got >= 0.0);
-            std::ostringstream what;
-            what << "facet[" << q << "] of (" << in[0] << ", " << in[1] << "), X (" << x.alpha_x << ", " << x.alpha_y
-                 << ", " << x.rho << ", " << x.mean_x << ", " << x.mean_y << "): got " << got << ", wanted " << truth
-                 << ", condition " << condition;
-            tally.see(is_sound ? ratio : HUGE_VAL, what.str());
-        }
+HardPoint point(std::size_t quantity, double got, Wide wanted, const Dual &dual, bool is_signed) {
+    HardPoint p;
+    p.quantity = quantity, p.got = got, p.wanted = static_cast<double>(wanted), p.is_signed = is_signed;
+    p.condition = p.wanted == 0.0 ? 0.0 : dual.condition();
+    return p;
+}
+
+void compare_slope(const Place &place, double got, Results &results) {
+    const Wide wide = slope_of<Wide>(place, constant(std::type_identity<Wide>()));
+    const Dual dual = slope_of<Dual>(place, variable);
+    const auto big = [&] { return slope_of<Big>(place, constant(std::type_identity<Big>())); };
+    if (results.is_to_be_checked()) results.check(wide, dual.condition(), big());
+    results.precise.see(
+        point(0, got, wide, dual, true), [&](std::size_t) { return static_cast<double>(big()); },
+        [&] {
+            std::ostringstream out;
+            out << std::setprecision(9) << "(" << place.whole << " + " << place.fraction << ") / " << place.strata
+                << ", " << place.graded << " graded";
+            return out.str();
+        });
+}
+
+void compare_facet(const HardSurface &x, const double (&t)[2], const double (&got)[5], Results &results) {
+    const auto wide = facet_of<Wide>(x, t[0], t[1], constant(std::type_identity<Wide>()));
+    const auto dual = facet_of<Dual>(x, t[0], t[1], variable);
+    const auto big = [&](std::size_t q) {
+        return facet_of<Big>(x, t[0], t[1], constant(std::type_identity<Big>()))[q];
+    };
+    const bool has_density = x.alpha_x > 0.0 && x.alpha_y > 0.0;
+    for (std::size_t q = 0; q < (has_density ? 5 : 4); ++q) {
+        if (results.is_to_be_checked()) results.check(wide[q], dual[q].condition(), big(q));
+        results.precise.see(
+            point(1 + q, got[q], wide[q], dual[q], q < 2),
+            [&](std::size_t quantity) { return static_cast<double>(big(quantity - 1)); },
+            [&] {
+                std::ostringstream out;
+                out << std::setprecision(9) << "(" << t[0] << ", " << t[1] << "), X (" << x.alpha_x << ", " << x.alpha_y
+                    << ", " << x.rho << ", " << x.mean_x << ", " << x.mean_y << ")";
+                return out.str();
+            });
     }
+}
+
+// What the device draws: [number][draw], slopes first.
+class Probe {
+  public:
+    Probe() {
+        cl::Program program(context_.cl(), smx::kernel_source("draw_facets.cl") + probe);
+        program.build(smx::build_options({{"W", 1}, {"GRADE", 0}}).c_str());
+        kernel_ = cl::Kernel(program, "probe");
+    }
+
+    std::vector<float> run(const HardSurface &x, const std::vector<Draw> &list) {
+        const cl::Buffer in = smx::buffer_from(context_, list),
+                         out = smx::empty_buffer<float>(context_, 7 * list.size());
+        kernel_.setArg(0, out);
+        kernel_.setArg(1, static_cast<cl_int>(list.size()));
+        kernel_.setArg(2, in);
+        smx::set_arg(kernel_, 3, test::displacement_of(x), smx::Grade::Precise);
+        context_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(list.size()));
+        std::vector<float> got(7 * list.size());
+        context_.queue().enqueueReadBuffer(out, CL_TRUE, 0, got.size() * sizeof(float), got.data());
+        return got;
+    }
+
+  private:
+    smx::Context context_{"", 1};
+    cl::Kernel kernel_;
+};
+
+void compare(const HardSurface &x, const std::vector<Draw> &list, const std::vector<float> &all, std::size_t first,
+             std::size_t step, Results &results) {
+    for (std::size_t k = first; k < list.size(); k += step) {
+        const auto number = [&](std::size_t q) { return static_cast<double>(all[q * list.size() + k]); };
+        const double t[] = {number(0), number(1)};
+        compare_slope(list[k].along_1, t[0], results);
+        compare_slope(list[k].along_2, t[1], results);
+        compare_facet(x, t, {number(2), number(3), number(4), number(5), number(6)}, results);
+    }
+}
+
+double setting(const char *name, double by_default) {
+    const char *text = std::getenv(name);
+    return text ? std::atof(text) : by_default;
+}
+
+HardStatistics seen_of(const Place &place, double slope) {
+    Results results;
+    compare_slope(place, slope, results);
+    return results.precise;
 }
 
 } // namespace
 
 TEST(HardSamples, SlopesAndFacetsAreAsPromised) {
-    const char *text = std::getenv("SLOPEMIX_HARD_POINTS");
-    const double points = text ? std::atof(text) : 2e5;
-    constexpr std::size_t per_case = 1000;
-    smx::Context context("", 1);
-    cl::Program program(context.cl(), smx::kernel_source("draw_facets.cl") + probe);
-    program.build(smx::build_options({{"W", 1}, {"GRADE", 0}}).c_str());
-    cl::Kernel kernel(program, "probe");
-    Tally slopes, facets;
-    for (std::size_t index = 0; static_cast<double>(index * per_case) < points; ++index) {
-        const test::HardSurface x = test::hard_case(index).x;
-        const std::vector<Draw> list = draws(per_case, index);
-        const cl::Buffer in = smx::buffer_from(context, list), out = smx::empty_buffer<float>(context, 7 * per_case);
-        kernel.setArg(0, out);
-        kernel.setArg(1, static_cast<cl_int>(per_case));
-        kernel.setArg(2, in);
-        smx::set_arg(kernel, 3, test::displacement_of(x), smx::Grade::Precise);
-        context.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(per_case));
-        std::vector<float> got(7 * per_case);
-        context.queue().enqueueReadBuffer(out, CL_TRUE, 0, got.size() * sizeof(float), got.data());
-        for (std::size_t k = 0; k < per_case; ++k) {
-            const Draw &d = list[k];
-            const double t[] = {got[k], got[per_case + k]};
-            for (int axis = 0; axis < 2; ++axis) {
-                std::ostringstream what;
-                const Place &p = axis ? d.along_2 : d.along_1;
-                what << "slope at (" << p.whole << " + " << p.fraction << ") / " << p.strata << ", " << p.graded
-                     << " graded: " << t[axis];
-                slopes.see(slope_error(p, t[axis]), what.str());
-            }
-        }
-        compare_facets(x, got, per_case, facets);
+    const double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
+    std::vector<Results> parts(test::host_threads());
+    for (Results &part : parts) part.checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01);
+    Probe probe;
+    for (std::size_t index = 0; static_cast<double>(index * draws_per_case) < points; ++index) {
+        const HardSurface x = test::hard_case(index).x;
+        const std::vector<Draw> list = draws(draws_per_case, index);
+        const std::vector<float> got = probe.run(x, list);
+        test::in_threads(parts, [&](std::size_t first, std::size_t step, Results &part) {
+            compare(x, list, got, first, step, part);
+        });
     }
-    for (const Tally *tally : {&slopes, &facets}) {
-        EXPECT_GT(tally->points, 0u);
-        EXPECT_EQ(tally->wrong, 0u) << "of " << tally->points << ", the worst " << tally->worst
-                                    << " times too far: " << tally->where;
-        RecordProperty("worst", std::to_string(tally->worst));
-    }
-    if (std::getenv("SLOPEMIX_HARD_REPORT"))
-        std::cout << slopes.points << " slopes, error over bound at most " << slopes.worst << "; " << facets.points
-                  << " numbers of facets, " << facets.worst << "\n";
+    Results all;
+    for (const Results &part : parts) all.merge(part);
+    std::ostringstream tables;
+    tables << all.oracle_checked << " of " << all.seen << " numbers at 60 digits too\n";
+    all.precise.write(tables);
+    EXPECT_EQ(all.precise.failures(), 0u) << tables.str();
+    EXPECT_EQ(all.oracle_wrong, 0u);
+    for (const test::QuantityCounts &n : all.precise.counts()) EXPECT_GE(static_cast<double>(n.points), 0.5 * points);
+    if (const char *path = std::getenv("SLOPEMIX_HARD_REPORT")) std::ofstream(path) << tables.str();
 }
 
 // The comparison sees a quantile that is 1e-5 off.
 TEST(HardSamples, SlopesOffAreSeen) {
-    EXPECT_LT(slope_error({0, 2, 0, 0.5f}, -0.47693627620446987), 0.01);
-    EXPECT_GT(slope_error({0, 2, 0, 0.5f}, -0.47693627620446987 * (1.0 + 1e-5)), 1.0);
-    EXPECT_GT(slope_error({0, 65536, 0, 0x1p-24f}, -4.9), 1.0);
+    EXPECT_EQ(seen_of({0, 2, 0, 0.5f}, -0.47693627620446987).failures(), 0u);
+    EXPECT_EQ(seen_of({0, 2, 0, 0.5f}, -0.47693627620446987 * (1.0 + 1e-5)).failures(), 1u);
+    EXPECT_EQ(seen_of({0, 65536, 0, 0x1p-24f}, -4.9).failures(), 1u);
     // The first of 8 strata, when it is graded, ends at 1/14.
-    EXPECT_LT(slope_error({1, 8, 1, 0x1p-24f}, -1.0360767508316173), 0.1);
-    EXPECT_GT(slope_error({1, 8, 0, 0x1p-24f}, -1.0360767508316173), 1.0);
+    EXPECT_EQ(seen_of({1, 8, 1, 0x1p-24f}, -1.0360767508316173).failures(), 0u);
+    EXPECT_EQ(seen_of({1, 8, 0, 0x1p-24f}, -1.0360767508316173).failures(), 1u);
 }
