@@ -263,3 +263,27 @@ TEST(HardCases, AllNumbersAreAsPromised) {
         EXPECT_GT(static_cast<double>(n.failures()), 0.01 * static_cast<double>(n.points)) << test::quantity_names()[q];
     }
 }
+
+// What bounds are told by: condition numbers against differences of 60 digits.
+TEST(HardCases, ConditionsAreThoseOfDifferences) {
+    const HardCase c = {{0.3, 0.5, 0.4, 0.1, -0.2}, {{0.3, 0.05}, {0.7, 0.4}}, true};
+    for (const HardPair &pair :
+         {HardPair{{0.36f, 0.48f, 0.8f}, {-0.6f, 0.3f, 0.74f}}, HardPair{{0.9f, 0.1f, 0.3f}, {-0.8f, 0.2f, 0.1f}}}) {
+        const auto moved = [&](std::size_t which, double sign) {
+            const auto variable = [&](double value, std::size_t index) {
+                return Big(value) * (Big(1.0) + (index == which ? Big(sign * 1e-15) : Big(0.0)));
+            };
+            return truth(test::case_of<Big>(c, variable), pair, variable);
+        };
+        const auto value = moved(test::hard_variables, 0.0);
+        const auto dual = truth(test::case_of<Dual>(c, variable), pair, variable);
+        std::array<double, test::quantities> condition{};
+        for (std::size_t j = 0; j < test::hard_variables; ++j) {
+            const auto above = moved(j, 1.0), below = moved(j, -1.0);
+            for (std::size_t q = 0; q < test::quantities; ++q)
+                condition[q] += std::abs(static_cast<double>((above[q] - below[q]) / (Big(2e-15) * value[q])));
+        }
+        for (std::size_t q = 0; q < test::quantities; ++q)
+            EXPECT_NEAR(dual[q].condition(), condition[q], 1e-9 * (1.0 + condition[q])) << test::quantity_names()[q];
+    }
+}

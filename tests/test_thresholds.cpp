@@ -24,11 +24,13 @@ smx::Context &context() {
 
 bool has(smx::Grade grade) { return grade != smx::Grade::Double || context().info().has_double; }
 
+enum class Of { Functions, Widening, Draws };
+
 // A function of x, and where its form changes.
 struct Threshold {
     const char *call;
     double at;
-    bool is_of_widening = false;
+    Of of = Of::Functions;
 };
 
 const std::vector<Threshold> &thresholds() {
@@ -51,17 +53,38 @@ const std::vector<Threshold> &thresholds() {
         {"g2_over_po(x, (realW)1.0f, (realW)1e-3f, (realW)0.1f) * 1e34f", 1e-34},
         {"facet_slope(x, (realW)1e-9f)", 1.0},
         {"facet_slope((realW)1.0f, x)", 0x1p-126},
+        {"slope_of_both(x, (realW)1e-9f)", 1.0},
+        {"slope_of_both((realW)1.0f, x)", 0x1p-126},
+        {"mixture_slope2(one_lobe, 1, (float)x)", 0.5},
         {"facet_slope2(x, (realW)0.0f, (realW)1e-9f)", 1.41421356},
         {"facet_slope2((realW)1e-36f, (realW)0.0f, x)", 0x1p-126},
-        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-5, true},
-        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-4, true},
-        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-5, true},
-        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-4, true},
-        {"facet_at_horizon(x)", 1e-12, true},
-        {"beside(facet_at_horizon((x - 1.0f) * 1e-6f), facet_at_horizon((realW)1.0f))", 1.0, true},
+        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-5, Of::Widening},
+        {"beside(facet_off_lobe(x), facet_off_lobe((realW)2e-4f))", 1e-4, Of::Widening},
+        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-5, Of::Widening},
+        {"beside(facet_off_surface(x), facet_off_surface((realW)2e-4f))", 1e-4, Of::Widening},
+        {"facet_at_horizon(x)", 1e-12, Of::Widening},
+        {"beside(facet_at_horizon((x - 1.0f) * 1e-6f), facet_at_horizon((realW)1.0f))", 1.0, Of::Widening},
+        {"visible_slope((realW)0.0f, x)", 0x1p-25, Of::Draws},
+        {"visible_slope((realW)0.5f, x)", 0.01, Of::Draws},
+        {"visible_slope((realW)9.0f, x)", 0.01, Of::Draws},
+        {"visible_slope((realW)0.5f, x) + 1.0f", 0.6822, Of::Draws}, // slope 0
+        {"visible_slope(x, (realW)0.3f)", 0x1p24, Of::Draws},
+        {"visible_slope(x, (realW)0.3f)", 0x1p60, Of::Draws},
+        {"gaussian_slope(x)", 0x1p-25, Of::Draws},
+        {"gaussian_slope(x) + 1.0f", 0.5, Of::Draws},
     };
     return list;
 }
+
+const char *functions = R"(
+__constant float2 one_lobe[] = {(float2)(1.0f, 0.5f)};
+
+inline realW slope_of_both(realW m_x, realW m_z) {
+    realW x, y;
+    facet_slopes(m_x, m_x, m_z, &x, &y);
+    return x;
+}
+)";
 
 // The quadrature's integrand (widen.clh) at a facet so steep that lobe or surface end, of the widest there are, and at
 // one that wi just sees, for the lobe of the least masking.
@@ -101,12 +124,17 @@ inline realW facet_at_horizon(realW cos_i) {
 inline realW beside(realW value, realW scale) { return 1.0f + value / scale; }
 )";
 
+std::string source_of(Of of) {
+    if (of == Of::Draws) return smx::kernel_source("visible_normals.clh");
+    const std::string all = smx::kernel_source("beckmann.clh") + smx::kernel_source("masking.clh") +
+                            smx::kernel_source("quantile.clh") + functions;
+    return of == Of::Widening ? all + smx::kernel_source("widen.clh") + facets : all;
+}
+
 // The function at 401 places about its threshold, within 1e-4 of it.
 template <typename Real>
 std::vector<double> sweep_as(const Threshold &t, smx::Grade grade) {
-    const std::string source = smx::kernel_source("beckmann.clh") + smx::kernel_source("masking.clh") +
-                               smx::kernel_source("quantile.clh") +
-                               (t.is_of_widening ? smx::kernel_source("widen.clh") + facets : "") + R"(
+    const std::string source = source_of(t.of) + R"(
 __kernel void apply(__global real *out, __global const real *a) {
     size_t at = get_global_id(0);
     realW x = a[at];
