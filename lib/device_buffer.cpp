@@ -35,6 +35,12 @@ cl::Buffer shared_buffer(const Context &context, std::size_t bytes, void *memory
                       memory);
 }
 
+cl::Buffer make_counter(Context &context) {
+    cl::Buffer counter = empty_buffer<cl_int>(context, 1);
+    context.queue().enqueueFillBuffer(counter, cl_int{0}, 0, sizeof(cl_int));
+    return counter;
+}
+
 void KernelTime::add(const cl::Event &event) {
     event.wait();
     try {

@@ -25,6 +25,9 @@ cl::Buffer empty_buffer(const Context &context, std::size_t count) {
     return make_buffer(context, count * sizeof(T));
 }
 
+// A number that kernels count up, 0 at first.
+cl::Buffer make_counter(Context &context);
+
 constexpr std::size_t round_up(std::size_t count, std::size_t multiple) {
     return (count + multiple - 1) / multiple * multiple;
 }

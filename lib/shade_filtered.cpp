@@ -52,7 +52,7 @@ RenderRows start_sphere(Context &device, const Simplified &simple, const RenderO
     if (kernels.widened) {
         for (const cl::Buffer &buffer : set_widening(device, kernel, 7, material, scene.displacement, orders, grade))
             kept.push_back(buffer);
-        count = buffer_from(device, std::vector<cl_int>{0});
+        count = make_counter(device);
         kernel.setArg(10, count);
     }
     const std::size_t columns = round_up(scene.width, device.width()) / device.width();

@@ -30,7 +30,7 @@ UniformKernel kernel_of(Context &device, const Simplified &simple, const std::ve
     UniformKernel own = {device.kernel("shade_uniform.cl", "shade_uniform", kernels.defines),
                          {light_lobe_buffer(device, material, scene.displacement, grade),
                           lobe_buffer(device, material, scene.displacement, grade),
-                          buffer_from(device, packed(material)), buffer_from(device, std::vector<cl_int>{0})}};
+                          buffer_from(device, packed(material)), make_counter(device)}};
     own.kernel.setArg(first_own_argument, own.kept[0]);
     own.kernel.setArg(first_own_argument + 1, static_cast<cl_int>(material.lobes.size()));
     own.kernel.setArg(first_own_argument + 2, own.kept[1]);
