@@ -81,7 +81,8 @@ std::optional<Variances> by_qr(ceres::Problem &problem, const std::vector<Block>
     const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr(j);
     const Eigen::Index n = j.cols();
     if (qr.info() != Eigen::Success || qr.rank() < n) return {};
-    const Eigen::SparseMatrix<double> r = qr.matrixR().topLeftCorner(n, n);
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> sorted = qr.matrixR(); // its own columns are not
+    const Eigen::SparseMatrix<double> r = sorted.topLeftCorner(n, n);
     std::vector<double> free(static_cast<std::size_t>(n));
     for (Eigen::Index k = 0; k < n; ++k) {
         const Eigen::VectorXd row = r.transpose().triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(n, k));
