@@ -3,8 +3,6 @@
 // is evaluated at 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -12,14 +10,15 @@
 #include "big.h"
 #include "dual.h"
 #include "hard_probe.h"
+#include "hard_run.h"
 #include "hard_statistics.h"
-#include "hard_threads.h"
 #include "textbook.h"
 
 using test::Big;
 using test::HardCase;
 using test::HardPair;
 using test::HardPoint;
+using test::HardSettings;
 using test::HardStatistics;
 
 namespace {
@@ -57,11 +56,6 @@ struct Truths {
     }
 };
 
-double setting(const char *name, double by_default) {
-    const char *text = std::getenv(name);
-    return text ? std::atof(text) : by_default;
-}
-
 constexpr const char *inputs = "wi | wo | X (alphas, rho, mean), lobes (weight, alpha)";
 
 std::string cells_of(const HardCase &c, const HardPair &pair) {
@@ -76,11 +70,6 @@ std::string cells_of(const HardCase &c, const HardPair &pair) {
         for (const oracle::Lobe &lobe : c.lobes) out << "lobe (" << lobe.weight << ", " << lobe.alpha << ") ";
     return out.str();
 }
-
-struct Settings {
-    double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
-    double checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01); // of the points, at 60 digits too
-};
 
 struct Results {
     std::vector<HardStatistics> grades = test::statistics_of_grades(3, test::quantity_names(), inputs);
@@ -147,7 +136,7 @@ std::size_t count_unsound(const std::array<Wide, test::quantities> &wide, const 
 }
 
 void compare(const HardCase &c, const std::vector<HardPair> &pairs, const std::vector<Values> &values,
-             const Settings &settings, std::size_t first, std::size_t step, Results &results) {
+             const HardSettings &settings, std::size_t first, std::size_t step, Results &results) {
     const Truths truths(c);
     const bool is_textbook = c.x.rho == 0.0 && c.x.mean_x == 0.0 && c.x.mean_y == 0.0;
     for (std::size_t k = first; k < pairs.size(); k += step) {
@@ -194,16 +183,15 @@ void compare(const HardCase &c, const std::vector<HardPair> &pairs, const std::v
     }
 }
 
-void report(const Results &results) {
-    const char *path = std::getenv("SLOPEMIX_HARD_REPORT");
-    if (!path) return;
-    std::ofstream out(path);
+std::string tables_of(const Results &results) {
+    std::ostringstream out;
     out << results.seen << " pairs of directions; " << results.oracle_checked
         << " of them at 60 digits too, where the oracle's error is at most " << results.oracle_worst
         << " of what is allowed in double\n";
     for (const HardStatistics &grade : results.grades) grade.write(out);
     results.textbook.write(out);
     results.beside_textbook.write(out);
+    return out.str();
 }
 
 std::string worst_of(const HardStatistics &statistics) {
@@ -218,7 +206,7 @@ Results merged(const std::vector<Results> &parts) {
     return all;
 }
 
-Results run(const Settings &settings) {
+Results run(const HardSettings &settings) {
     smx::Context context("", 0);
     std::vector<test::HardProbe> probes;
     const std::size_t grades = context.info().has_double ? 3 : 2;
@@ -234,17 +222,17 @@ Results run(const Settings &settings) {
         test::in_threads(parts, [&](std::size_t first, std::size_t step, Results &part) {
             compare(c, pairs, values, settings, first, step, part);
         });
-        if (index % report_every == 0) report(merged(parts));
+        if (index % report_every == 0) settings.write_report(tables_of(merged(parts)));
     }
     const Results all = merged(parts);
-    report(all);
+    settings.write_report(tables_of(all));
     return all;
 }
 
 } // namespace
 
 TEST(HardCases, AllNumbersAreAsPromised) {
-    const Settings settings;
+    const HardSettings settings;
     const Results results = run(settings);
     for (const HardStatistics &grade : results.grades) {
         EXPECT_EQ(grade.failures(), 0u) << worst_of(grade);

@@ -4,8 +4,6 @@
 // tables.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -15,13 +13,14 @@
 #include "device_lobe.h"
 #include "dual.h"
 #include "hard_probe.h"
+#include "hard_run.h"
 #include "hard_statistics.h"
-#include "hard_threads.h"
 #include "oracle_draws.h"
 
 using test::Big;
 using test::HardCase;
 using test::HardPoint;
+using test::HardSettings;
 using test::HardStatistics;
 
 namespace {
@@ -143,15 +142,6 @@ bool is_open(const Draw &d, const test::Promise &promise) {
     return 1.0 - d.u[1] < 16 * promise.factor || 1.0 - d.u[2] < 16 * promise.factor;
 }
 
-struct Settings {
-    double points = 2e5, checked_share = 0.01;
-
-    Settings() {
-        if (const char *text = std::getenv("SLOPEMIX_HARD_POINTS")) points = std::atof(text);
-        if (const char *text = std::getenv("SLOPEMIX_HARD_CHECKED")) checked_share = std::atof(text);
-    }
-};
-
 struct Results {
     std::vector<HardStatistics> grades =
         test::statistics_of_grades(3, {"normal x", "normal y", "normal z", "wi x", "wi y", "wi z"},
@@ -187,7 +177,7 @@ void compare_lobes(const HardCase &c, const Draw &d, const std::vector<Values> &
 }
 
 void compare(const HardCase &c, const std::vector<Draw> &draws, const std::vector<Values> &values,
-             const Settings &settings, std::size_t first, std::size_t step, Results &results) {
+             const HardSettings &settings, std::size_t first, std::size_t step, Results &results) {
     for (std::size_t k = first; k < draws.size(); k += step) {
         const Draw &d = draws[k];
         if (test::is_spread_lost(c, d.wo) || test::is_sign_open(c, d.wo, test::promises[0].epsilon)) continue;
@@ -277,7 +267,7 @@ class Probe {
     cl::Kernel kernel_;
 };
 
-Results run(const Settings &settings) {
+Results run(const HardSettings &settings) {
     smx::Context context("", 0);
     std::vector<Probe> probes;
     const std::size_t grades = context.info().has_double ? 3 : 2;
@@ -311,11 +301,11 @@ std::string written(const Results &results) {
 } // namespace
 
 TEST(HardDraws, LobesNormalsAndDirectionsAreAsPromised) {
-    const Settings settings;
+    const HardSettings settings;
     const Results results = run(settings);
     for (const HardStatistics &grade : results.grades) EXPECT_EQ(grade.failures(), 0u) << written(results);
     EXPECT_EQ(results.wrong_lobes, 0u);
     EXPECT_EQ(results.oracle_wrong, 0u);
     EXPECT_GE(static_cast<double>(results.seen), 0.5 * settings.points);
-    if (const char *path = std::getenv("SLOPEMIX_HARD_REPORT")) std::ofstream(path) << written(results);
+    settings.write_report(written(results));
 }

@@ -4,8 +4,6 @@
 // 60 digits too, SLOPEMIX_HARD_REPORT where to write the tables.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -13,8 +11,8 @@
 #include "device_buffer.h"
 #include "dual.h"
 #include "hard_probe.h"
+#include "hard_run.h"
 #include "hard_statistics.h"
-#include "hard_threads.h"
 #include "oracle_draws.h"
 
 using test::Big;
@@ -229,11 +227,6 @@ void compare(const HardSurface &x, const std::vector<Draw> &list, const std::vec
     }
 }
 
-double setting(const char *name, double by_default) {
-    const char *text = std::getenv(name);
-    return text ? std::atof(text) : by_default;
-}
-
 HardStatistics seen_of(const Place &place, double slope) {
     Results results;
     compare_slope(place, slope, results);
@@ -243,11 +236,11 @@ HardStatistics seen_of(const Place &place, double slope) {
 } // namespace
 
 TEST(HardSamples, SlopesAndFacetsAreAsPromised) {
-    const double points = setting("SLOPEMIX_HARD_POINTS", 2e5);
+    const test::HardSettings settings;
     std::vector<Results> parts(test::host_threads());
-    for (Results &part : parts) part.checked_share = setting("SLOPEMIX_HARD_CHECKED", 0.01);
+    for (Results &part : parts) part.checked_share = settings.checked_share;
     Probe probe;
-    for (std::size_t index = 0; static_cast<double>(index * draws_per_case) < points; ++index) {
+    for (std::size_t index = 0; static_cast<double>(index * draws_per_case) < settings.points; ++index) {
         const HardSurface x = test::hard_case(index).x;
         const std::vector<Draw> list = draws(draws_per_case, index);
         const std::vector<float> got = probe.run(x, list);
@@ -262,8 +255,9 @@ TEST(HardSamples, SlopesAndFacetsAreAsPromised) {
     all.precise.write(tables);
     EXPECT_EQ(all.precise.failures(), 0u) << tables.str();
     EXPECT_EQ(all.oracle_wrong, 0u);
-    for (const test::QuantityCounts &n : all.precise.counts()) EXPECT_GE(static_cast<double>(n.points), 0.5 * points);
-    if (const char *path = std::getenv("SLOPEMIX_HARD_REPORT")) std::ofstream(path) << tables.str();
+    for (const test::QuantityCounts &n : all.precise.counts())
+        EXPECT_GE(static_cast<double>(n.points), 0.5 * settings.points);
+    settings.write_report(tables.str());
 }
 
 // The comparison sees a quantile that is 1e-5 off.

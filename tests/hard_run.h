@@ -1,13 +1,33 @@
-// The comparison of hard points on all of the host's threads.
+// How many hard points are compared, and on all of the host's threads.
 #pragma once
 
 #include <mpfr.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace test {
+
+// From the environment (docs/stability.md).
+struct HardSettings {
+    double points = number("SLOPEMIX_HARD_POINTS", 2e5);
+    double checked_share = number("SLOPEMIX_HARD_CHECKED", 0.01); // of the points, at 60 digits too
+    const char *report = std::getenv("SLOPEMIX_HARD_REPORT");
+
+    void write_report(const std::string &tables) const {
+        if (report) std::ofstream(report) << tables;
+    }
+
+  private:
+    static double number(const char *name, double by_default) {
+        const char *text = std::getenv(name);
+        return text ? std::atof(text) : by_default;
+    }
+};
 
 inline std::size_t host_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
