@@ -29,6 +29,8 @@ constexpr double allowed_fall = 1e-12;
 constexpr double unconverged = 1e-6;
 // The refinement and the joining of lobes may each give up this much of the likelihood, in nat, per lobe.
 constexpr double allowed_loss = 1e-8;
+// Of the likelihood of the truth, what a fit with lobes to spare may fall short by; relative.
+constexpr double likelihood_tolerance = 1e-6;
 // Two fits to what is the same but for the order of its sums; relative.
 constexpr double order_tolerance = 1e-6;
 
@@ -191,6 +193,29 @@ TEST(FitHard, OneSlopeIsOneLobe) {
         }
 }
 
+// Sixteen lobes for what is one: they find it, from a density's samples and from a table's inversion.
+TEST(FitHard, SixteenLobesAreAsLikelyAsTheTrueOne) {
+    test::Brdf table;
+    ASSERT_SMX_OK(smx_brdf_open("analytic:beckmann,alpha=0.3,f0=0.9", table.out()));
+    const std::vector<double> values = test::filled_table(table).values;
+    std::vector<std::pair<double, SlopeDensity>> cases = {{0.3, invert(Brdf("beckmann", "", "", 180, values), {})}};
+    for (const double alpha : {2e-3, 0.05, 0.3, 1.0, 10.0})
+        cases.push_back({alpha, density_of(formula([alpha](std::size_t j) {
+                             const double theta = std::pow(static_cast<double>(j) / nodes, 2) * oracle::pi / 2.0;
+                             const double slope = std::tan(theta) / alpha;
+                             return std::exp(-slope * slope) / std::pow(std::cos(theta), 4);
+                         }))});
+    for (const auto &[alpha, density] : cases) {
+        const Material fitted = fit_mixture(density, 16, FitOptions{});
+        expect_mixture(fitted.lobes, 16);
+        const double truth = mean_log_likelihood({{1.0, alpha}}, density);
+        EXPECT_GE(fitted.report.log_likelihood, truth - likelihood_tolerance * std::abs(truth)) << "alpha " << alpha;
+        EXPECT_EQ(fitted.report.log_likelihood, mean_log_likelihood(fitted.lobes, density)) << "alpha " << alpha;
+        // A lobe of another width would be told from it.
+        EXPECT_LT(mean_log_likelihood({{1.0, 1.01 * alpha}}, density), truth - likelihood_tolerance * std::abs(truth));
+    }
+}
+
 // Two slopes need two lobes and no more, however many are asked for.
 TEST(FitHard, NoMoreLobesThanSlopes) {
     const SlopeDensity density = density_of(spikes({2, 80}));
@@ -205,6 +230,27 @@ TEST(FitHard, OrderOfTheStartDoesNotMatter) {
     while (std::next_permutation(start.begin(), start.end(),
                                  [](const Lobe &a, const Lobe &b) { return a.alpha < b.alpha; }))
         expect_same(climb(start, density, 1e-10, 300).lobes, wanted.lobes);
+}
+
+// Nodes in any order are the same density, and rows of a file that are not in order are no guess.
+TEST(FitHard, OrderOfTheNodesDoesNotMatter) {
+    const SlopeDensity density = density_of(cases()[6].ndf);
+    const std::vector<Lobe> start{{0.2, 0.01}, {0.3, 0.1}, {0.4, 0.5}, {0.1, 3.0}};
+    const std::vector<Lobe> wanted = climb(start, density, 1e-10, 300).lobes;
+    test::Random random(31);
+    for (int turn = 0; turn < 4; ++turn) {
+        SlopeDensity turned = density;
+        for (std::size_t k = nodes - 1; k > 0; --k) {
+            const std::size_t other = random.below(k + 1);
+            for (std::vector<double> *list : {&turned.slope, &turned.p22, &turned.area, &turned.mass})
+                std::swap((*list)[k], (*list)[other]);
+        }
+        expect_same(climb(start, turned, 1e-10, 300).lobes, wanted);
+    }
+    const double theta[] = {0.0, 0.5, 0.2}, values[] = {2.0, 0.1, 1.0};
+    smx_density none = nullptr;
+    EXPECT_SMX_FAILS(SMX_INVALID_ARGUMENT, "theta",
+                     smx_density_from_samples("turned", SMX_DENSITY_P22, 3, theta, values, &none));
 }
 
 TEST(FitHard, OrderOfTheChannelsDoesNotMatter) {

@@ -93,7 +93,7 @@ __constant QuadratureLobe widest = {.alpha2 = 1e8f, .inv_alpha2 = 1e-8f};
 __constant QuadratureLobe sharpest = {.alpha2 = 1e-8f, .inv_alpha2 = 1e8f};
 
 inline Chart plain_chart(void) {
-    Chart c = {.i = {(realW)0.5f, (realW)0.0f, (realW)0.0f}, .inv_both = (realW)1.0f};
+    Chart c = {.i = {(realW)0.5f, (realW)0.0f, (realW)0.0f}};
     c.o = c.i;
     return c;
 }
@@ -102,8 +102,8 @@ inline Chart plain_chart(void) {
 inline realW facet_off_lobe(realW h) {
     Chart c = plain_chart();
     c.i.at_m = c.o.at_m = 0.5f * h;
-    c.h1 = (realW)1.0f;
-    return integrand(&widest, 0, 0, &c, (realW)0.0f, (realW)0.0f, (realW)0.0f);
+    c.h1 = (realW)1.0f; // and 1 + h1 u1 is h
+    return integrand(&widest, 0, 0, &c, h - 1.0f, (realW)0.0f, (realW)0.0f);
 }
 
 // z = 1 - 1 + z is the normal's share of it. X's alphas are 1e4.
