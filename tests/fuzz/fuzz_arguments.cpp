@@ -8,12 +8,15 @@
 #include "commands.h"
 #include "effect_flags.h"
 #include "geometric_flags.h"
+#include "memory.h"
 #include "scene_flags.h"
 #include "target.h"
 
 using namespace slopemix::cli;
 
 namespace {
+
+constexpr std::size_t length_factor = 100; // a line of no character is a text and a result of the parser
 
 using Arguments = std::vector<std::string>;
 
@@ -188,6 +191,7 @@ std::vector<std::string> fuzz::seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Arguments arguments = lines_of(data, size);
     const bool is_command = names_command(arguments.front());
+    const fuzz::MemoryLimit limit(length_factor * size + fuzz::always_legal);
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
     try {
         if (is_command)
