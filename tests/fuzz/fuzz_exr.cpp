@@ -16,7 +16,8 @@
 
 namespace {
 
-constexpr std::size_t length_factor = 100; // of the file's length: attributes and tables of offsets
+// Of the file's length, for attributes and tables of offsets; and what the tables of a compression take.
+constexpr std::size_t length_factor = 100, codec_bytes = std::size_t{1} << 20;
 
 const test::TempDir &folder() {
     static const test::TempDir dir;
@@ -125,7 +126,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     smx_status status;
     {
         const std::string_view bytes(reinterpret_cast<const char *>(data), size);
-        const fuzz::MemoryLimit limit(2 * declared_bytes(bytes) + length_factor * size + fuzz::always_legal);
+        const fuzz::MemoryLimit limit(2 * declared_bytes(bytes) + length_factor * size + codec_bytes +
+                                      fuzz::always_legal);
         status = smx_image_read_exr(file.path().c_str(), &image);
     }
     fuzz::require_outcome(status, image, {SMX_BAD_FORMAT, SMX_OUT_OF_MEMORY});

@@ -5,7 +5,7 @@
 namespace {
 
 constexpr std::size_t table_bytes = std::size_t{3} * 8 * 90 * 90 * 180; // what every formula declares
-constexpr std::size_t table_factor = 6;                                 // as of a table that is read
+constexpr std::size_t table_factor = 3;                                 // as of a table that is read
 
 } // namespace
 

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t header = 12, pair = 16;
 constexpr std::uint64_t longest = 80'000'000; // a table over the full azimuth has 70 MB
 
-// The file and its values, and what the filling of holes remembers.
-constexpr std::size_t table_factor = 6;
+// The file's bytes, its values, and less than as much again: which cells are valid, and how holes are filled.
+constexpr std::size_t table_factor = 3;
 
 template <class T>
 std::string bytes_of(const T &value) {

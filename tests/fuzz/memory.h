@@ -18,6 +18,6 @@ class MemoryLimit {
 };
 
 // What a reader may hold, however short the file: buffers of streams, messages, tables of its own.
-inline constexpr std::size_t always_legal = std::size_t{1} << 20;
+inline constexpr std::size_t always_legal = std::size_t{256} << 10;
 
 } // namespace fuzz
