@@ -128,6 +128,7 @@ PerLobeProblem::PerLobeProblem(const std::vector<DirectionLevel> &levels, const 
     levels_.update(unknowns_.log_alphas);
     ceres::Problem::Options options;
     options.evaluation_callback = this;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     problem_ = std::make_unique<ceres::Problem>(options);
     for (std::size_t c = 0; c < 3; ++c) {
         add_levels(c);
@@ -142,12 +143,17 @@ void PerLobeProblem::PrepareForEvaluation(bool, bool new_point) {
     if (new_point) levels_.update(unknowns_.log_alphas);
 }
 
+void PerLobeProblem::add(std::unique_ptr<ceres::CostFunction> residuals, const std::vector<double *> &blocks) {
+    residuals_.push_back(std::move(residuals));
+    problem_->AddResidualBlock(residuals_.back().get(), nullptr, blocks);
+}
+
 void PerLobeProblem::add_levels(std::size_t channel) {
     auto &values = unknowns_.values[channel];
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         const std::size_t first = curve_shares(levels_.theta_d(l)).first;
-        problem_->AddResidualBlock(new LevelResiduals(levels_, l, channel), nullptr, unknowns_.log_alphas.data(),
-                                   values[first].data(), values[first + 1].data(), values[first + 2].data());
+        add(std::make_unique<LevelResiduals>(levels_, l, channel),
+            {unknowns_.log_alphas.data(), values[first].data(), values[first + 1].data(), values[first + 2].data()});
     }
 }
 
@@ -161,14 +167,14 @@ void PerLobeProblem::add_roughness(std::size_t channel) {
     }
     auto &values = unknowns_.values[channel];
     for (std::size_t j = 0; j + 2 < curve_coefficients; ++j)
-        problem_->AddResidualBlock(new RoughnessResiduals(scales), nullptr, values[j].data(), values[j + 1].data(),
-                                   values[j + 2].data());
+        add(std::make_unique<RoughnessResiduals>(scales),
+            {values[j].data(), values[j + 1].data(), values[j + 2].data()});
 }
 
 void PerLobeProblem::add_energy(const EnergyBound &energy, std::size_t channel) {
     std::vector<double *> blocks;
     for (std::vector<double> &lobes : unknowns_.values[channel]) blocks.push_back(lobes.data());
-    problem_->AddResidualBlock(new EnergyResidual(energy.shares, energy.bound[channel]), nullptr, blocks);
+    add(std::make_unique<EnergyResidual>(energy.shares, energy.bound[channel]), blocks);
 }
 
 void PerLobeProblem::add_bounds() {

@@ -40,6 +40,7 @@ class PerLobeProblem : private ceres::EvaluationCallback {
 
   private:
     void PrepareForEvaluation(bool, bool new_point) override;
+    void add(std::unique_ptr<ceres::CostFunction> residuals, const std::vector<double *> &blocks);
     void add_levels(std::size_t channel);
     void add_roughness(std::size_t channel);
     void add_energy(const EnergyBound &energy, std::size_t channel);
@@ -47,6 +48,7 @@ class PerLobeProblem : private ceres::EvaluationCallback {
 
     Unknowns unknowns_;
     CompressedLevels levels_;
+    std::vector<std::unique_ptr<ceres::CostFunction>> residuals_; // not Ceres's, which loses one where memory ends
     std::unique_ptr<ceres::Problem> problem_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "ceres_solver.h"
@@ -90,27 +91,37 @@ struct Parameters {
     }
 };
 
-void pose(ceres::Problem &problem, Parameters &p, const SlopeDensity &density) {
+// What the problem refers to is not Ceres's, which would lose it where memory ends.
+ceres::Problem::Options owning_nothing() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+}
+
+void pose(ceres::Problem &problem, Parameters &p, DevianceResiduals &residuals,
+          std::unique_ptr<ceres::Manifold> &manifold) {
     const int n = static_cast<int>(p.log_alpha.size());
-    problem.AddResidualBlock(new DevianceResiduals(density, n), nullptr, p.log_alpha.data(), p.log_weight.data());
+    problem.AddResidualBlock(&residuals, nullptr, p.log_alpha.data(), p.log_weight.data());
     for (int k = 0; k < n; ++k) {
         problem.SetParameterLowerBound(p.log_alpha.data(), k, std::log(min_alpha));
         problem.SetParameterUpperBound(p.log_alpha.data(), k, std::log(max_alpha));
     }
     // The weights are free up to a common factor, so that of the heaviest lobe is held.
     const auto heaviest = std::max_element(p.log_weight.begin(), p.log_weight.end()) - p.log_weight.begin();
-    if (n == 1)
-        problem.SetParameterBlockConstant(p.log_weight.data());
-    else
-        problem.SetManifold(p.log_weight.data(), new ceres::SubsetManifold(n, {static_cast<int>(heaviest)}));
+    if (n == 1) return problem.SetParameterBlockConstant(p.log_weight.data());
+    manifold = std::make_unique<ceres::SubsetManifold>(n, std::vector<int>{static_cast<int>(heaviest)});
+    problem.SetManifold(p.log_weight.data(), manifold.get());
 }
 
 } // namespace
 
 RefineResult refine(const std::vector<Lobe> &start, const SlopeDensity &density) {
     Parameters parameters(start);
-    ceres::Problem problem;
-    pose(problem, parameters, density);
+    DevianceResiduals residuals(density, static_cast<int>(start.size()));
+    std::unique_ptr<ceres::Manifold> manifold;
+    ceres::Problem problem(owning_nothing());
+    pose(problem, parameters, residuals, manifold);
 
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;

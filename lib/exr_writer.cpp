@@ -1,5 +1,6 @@
 #include "exr_writer.h"
 
+#include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
@@ -8,6 +9,8 @@
 
 #include <cerrno>
 #include <fstream>
+#include <functional>
+#include <new>
 #include <optional>
 #include <system_error>
 
@@ -52,6 +55,7 @@ class CheckedStream : public Imf::OStream {
         out_.close();
         check();
     }
+    bool is_sound() const { return out_.good(); }
 
   private:
     void check() const {
@@ -61,11 +65,27 @@ class CheckedStream : public Imf::OStream {
     std::ofstream out_;
 };
 
+// OpenEXR makes the parts of a file in streams in memory, whose end it tells as a failure of output like any other:
+// where the file's own stream is sound, that is what it was.
+void tell_end_of_memory(const CheckedStream &stream, const std::function<void()> &write) {
+    try {
+        write();
+    } catch (const Iex::IoExc &) {
+        if (stream.is_sound()) throw std::bad_alloc();
+        throw;
+    } catch (const Iex::ErrnoExc &) {
+        if (stream.is_sound()) throw std::bad_alloc();
+        throw;
+    }
+}
+
 } // namespace
 
 struct ExrWriter::File {
     File(const std::string &path, std::uint32_t image_width, const Imf::Header &header, bool errors)
-        : width(image_width), with_errors(errors), stream(path), output(std::in_place, stream, header) {}
+        : width(image_width), with_errors(errors), stream(path) {
+        tell_end_of_memory(stream, [&] { output.emplace(stream, header); });
+    }
 
     std::uint32_t width;
     bool with_errors;
@@ -86,7 +106,7 @@ void ExrWriter::write(const float *rgba, const float *errors, std::uint32_t rows
     insert_rows(buffer, image_channels, const_cast<float *>(rgba), file_->width, 0, row);
     if (file_->with_errors) insert_rows(buffer, error_channels, const_cast<float *>(errors), file_->width, 0, row);
     file_->output->setFrameBuffer(buffer);
-    file_->output->writePixels(static_cast<int>(rows));
+    tell_end_of_memory(file_->stream, [&] { file_->output->writePixels(static_cast<int>(rows)); });
 }
 
 void ExrWriter::finish() {

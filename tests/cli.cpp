@@ -37,15 +37,23 @@ namespace {
     _exit(127);
 }
 
-// Looks every few milliseconds; a child that has ended takes no signal any more.
-void send_when(pid_t child, const CliSetting &setting) {
+// Looks every few milliseconds; false: the child has ended.
+bool wait_for(pid_t child, const std::function<bool()> &moment) {
     siginfo_t ended{};
-    while (!setting.signal_when()) {
+    while (!moment()) {
         if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0)
-            return;
+            return false;
         usleep(2000);
     }
-    kill(child, setting.signal);
+    return true;
+}
+
+void hold(pid_t child, const std::function<void()> &meanwhile) {
+    siginfo_t stopped{};
+    kill(child, SIGSTOP);
+    waitid(P_PID, static_cast<id_t>(child), &stopped, WSTOPPED | WEXITED | WNOWAIT);
+    meanwhile();
+    kill(child, SIGCONT);
 }
 
 } // namespace
@@ -57,7 +65,10 @@ CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setti
     if (child < 0) throw std::runtime_error("cannot fork");
     if (child == 0) become_cli(arguments, setting, out, err);
     int status = 0;
-    if (setting.signal != 0) send_when(child, setting);
+    if (setting.signal_when && wait_for(child, setting.signal_when)) {
+        if (setting.signal != 0) kill(child, setting.signal);
+        if (setting.meanwhile) hold(child, setting.meanwhile);
+    }
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait");
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }

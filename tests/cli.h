@@ -22,6 +22,7 @@ struct CliSetting {
     std::size_t file_size_limit = 0; // bytes; 0: none. Longer writes fail, for root too
     int signal = 0;                  // sent once `signal_when` is true; 0: none
     std::function<bool()> signal_when = {};
+    std::function<void()> meanwhile = {}; // while the command stands still, once `signal_when` is true
 };
 
 CliResult cli(const std::vector<std::string> &arguments, const CliSetting &setting = {});

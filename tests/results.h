@@ -52,14 +52,25 @@ inline std::string csv_without_times(const std::string &csv) {
     return left;
 }
 
-// Every file by its name: JSON and CSV without times, and the bytes of all others.
+// What a sweep measured but for times, and what follows from them: the Pareto set and the number of runs.
+inline nlohmann::json errors_of_sweep(const nlohmann::json &document) {
+    nlohmann::json points = without_times(document.at("points"));
+    for (nlohmann::json &point : points)
+        for (const char *key : {"runs", "ns_per_evaluation", "pareto"}) point.erase(key);
+    return points;
+}
+
+// Every file by its name: JSON and CSV without times, and the bytes of all others. Of a sweep's files
+// only tradeoff.json is told: the others show times.
 inline std::map<std::string, std::string> results_in(const TempDir &dir) {
     std::map<std::string, std::string> results;
     for (const std::string &name : dir.names()) {
+        if (name == "tradeoff.csv" || name == "tradeoff.svg") continue;
         const std::string bytes = read_file(dir / name);
-        results[name] = name.ends_with(".json")  ? without_times(nlohmann::json::parse(bytes)).dump()
-                        : name.ends_with(".csv") ? csv_without_times(bytes)
-                                                 : bytes;
+        results[name] = name == "tradeoff.json"   ? errors_of_sweep(nlohmann::json::parse(bytes)).dump()
+                        : name.ends_with(".json") ? without_times(nlohmann::json::parse(bytes)).dump()
+                        : name.ends_with(".csv")  ? csv_without_times(bytes)
+                                                  : bytes;
     }
     return results;
 }

@@ -164,6 +164,22 @@ TEST(Exr, WrongFilesAreRefused) {
     EXPECT_SMX_FAILS(SMX_CANNOT_READ, "absent.exr", smx_image_read_exr((dir / "absent.exr").c_str(), &image));
 }
 
+// OpenEXR would go on reading where the value ends by its type, and take what stands there for sizes to allocate.
+TEST(Exr, AttributesOfAnotherSizeThanTheirTypesAreRefused) {
+    const test::TempDir dir;
+    const std::string file = dir / "image.exr";
+    ASSERT_SMX_OK(smx_image_write_exr(make_image(64, 64, hard_pixels(64, 64)), file.c_str()));
+    const std::string whole = test::read_file(file);
+    for (const std::string type : {"chlist", "box2i", "v2f", "float"}) {
+        std::string bytes = whole;
+        const std::size_t size = whole.find(type + '\0') + type.size() + 1;
+        ++bytes[size];
+        test::write_file(file, bytes);
+        smx_image image = nullptr;
+        EXPECT_SMX_FAILS(SMX_BAD_FORMAT, "is no " + type, smx_image_read_exr(file.c_str(), &image));
+    }
+}
+
 TEST(Exr, FailedWritesLoseNothing) {
     const test::TempDir dir;
     const test::Image image = make_image(64, 64, hard_pixels(64, 64));

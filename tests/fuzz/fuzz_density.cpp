@@ -1,9 +1,13 @@
 // smx_density_read_csv: a density that is read is normalised and finite.
 #include <cmath>
 
+#include "memory.h"
 #include "target.h"
 
 namespace {
+
+// Of the file's length: a row of four bytes becomes a node of some doubles.
+constexpr std::size_t length_factor = 100;
 
 void require_sound(smx_density density) {
     smx_density_info info = SMX_DENSITY_INFO_INIT;
@@ -34,7 +38,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static fuzz::MemoryFile file;
     file.set(data, size);
     smx_density density = nullptr;
-    const smx_status status = smx_density_read_csv(file.path().c_str(), &density);
+    smx_status status;
+    {
+        const fuzz::MemoryLimit limit(length_factor * size + fuzz::always_legal);
+        status = smx_density_read_csv(file.path().c_str(), &density);
+    }
     fuzz::require_outcome(status, density, {SMX_BAD_FORMAT, SMX_NO_SOLUTION});
     if (density) require_sound(density);
     smx_density_release(density);

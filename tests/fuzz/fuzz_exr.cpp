@@ -5,12 +5,19 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <string_view>
 
 #include "files.h"
+#include "memory.h"
 #include "target.h"
 
 namespace {
+
+// Of the file's length, for attributes and tables of offsets; and what the tables of a compression take.
+constexpr std::size_t length_factor = 100, codec_bytes = std::size_t{1} << 20;
 
 const test::TempDir &folder() {
     static const test::TempDir dir;
@@ -32,6 +39,34 @@ std::size_t values_of(smx_image image) {
 void require_same(const float *a, const float *b, std::size_t count) {
     fuzz::require((a == nullptr) == (b == nullptr), "both have these values, or none");
     fuzz::require(!a || std::memcmp(a, b, count * sizeof(float)) == 0, "the same bits");
+}
+
+// Calls take(number...) for the numbers after each attribute of this name and type.
+template <std::size_t count>
+void for_each(std::string_view file, std::string_view attribute, auto take) {
+    for (std::size_t at = 0; (at = file.find(attribute, at)) != std::string_view::npos;) {
+        at += attribute.size();
+        std::array<std::int32_t, count> numbers{};
+        if (file.size() - at < sizeof numbers) return;
+        std::memcpy(numbers.data(), file.data() + at, sizeof numbers);
+        take(numbers);
+    }
+}
+
+// Of the largest window or tile that a header declares: four floats of values and four of errors per pixel, and no
+// fewer rows than the largest block of a compression has.
+std::size_t declared_bytes(std::string_view file) {
+    using namespace std::string_view_literals;
+    constexpr double pixel = 32.0, block = 256.0, most = 1e15;
+    double bytes = 0.0;
+    for_each<4>(file, "dataWindow\0box2i\0\x10\0\0\0"sv, [&](const auto &window) {
+        const double width = double(window[2]) - window[0] + 1.0, height = double(window[3]) - window[1] + 1.0;
+        if (width > 0.0 && height > 0.0) bytes = std::max(bytes, pixel * width * std::max(height, block));
+    });
+    for_each<2>(file, "tiles\0tiledesc\0\x09\0\0\0"sv, [&](const auto &side) {
+        bytes = std::max(bytes, pixel * std::uint32_t(side[0]) * std::uint32_t(side[1]));
+    });
+    return static_cast<std::size_t>(std::min(bytes, most));
 }
 
 // Ours, with an attribute.
@@ -88,7 +123,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const std::string path = folder() / "again.exr";
     file.set(data, size);
     smx_image image = nullptr;
-    const smx_status status = smx_image_read_exr(file.path().c_str(), &image);
+    smx_status status;
+    {
+        const std::string_view bytes(reinterpret_cast<const char *>(data), size);
+        const fuzz::MemoryLimit limit(2 * declared_bytes(bytes) + length_factor * size + codec_bytes +
+                                      fuzz::always_legal);
+        status = smx_image_read_exr(file.path().c_str(), &image);
+    }
     fuzz::require_outcome(status, image, {SMX_BAD_FORMAT, SMX_OUT_OF_MEMORY});
     if (!image) return 0;
     fuzz::require_ok(smx_image_write_exr(image, path.c_str()), "writing what was read");

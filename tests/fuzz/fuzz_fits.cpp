@@ -2,10 +2,18 @@
 #include "files.h"
 #include "fit_job.h"
 #include "fit_table.h"
+#include "memory.h"
 #include "target.h"
 
 using slopemix::cli::CommandError;
 using slopemix::cli::FitTable;
+
+namespace {
+
+// Of the file's length: the document, the rows, and the text of both files that is written of them.
+constexpr std::size_t length_factor = 200;
+
+} // namespace
 
 std::vector<std::string> fuzz::seeds() {
     const std::string head = R"({"format": "slopemix-fits", "version": 1, "materials": [)";
@@ -22,6 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const std::string path = dir / "fits.json";
     test::write_file(path, std::string(reinterpret_cast<const char *>(data), size));
     try {
+        const fuzz::MemoryLimit limit(length_factor * size + fuzz::always_legal);
         FitTable(dir.path()).save();
     } catch (const CommandError &) {
         return 0;

@@ -1,5 +1,13 @@
 // smx_brdf_open on words: built-in materials and formulas, as the command line takes them.
+#include "memory.h"
 #include "target.h"
+
+namespace {
+
+constexpr std::size_t table_bytes = std::size_t{3} * 8 * 90 * 90 * 180; // what every formula declares
+constexpr std::size_t table_factor = 3;                                 // as of a table that is read
+
+} // namespace
 
 std::vector<std::string> fuzz::seeds() {
     return {"builtin:none",
@@ -15,7 +23,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const std::string words(reinterpret_cast<const char *>(data), size);
     if (!words.starts_with("analytic:") && !words.starts_with("builtin:")) return 0; // a file's name
     smx_brdf brdf = nullptr;
-    const smx_status status = smx_brdf_open(words.c_str(), &brdf);
+    smx_status status;
+    {
+        const fuzz::MemoryLimit limit(table_factor * table_bytes + fuzz::always_legal);
+        status = smx_brdf_open(words.c_str(), &brdf);
+    }
     fuzz::require_outcome(status, brdf, {SMX_INVALID_ARGUMENT});
     smx_brdf_release(brdf);
     return 0;

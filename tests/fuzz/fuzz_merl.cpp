@@ -5,12 +5,16 @@
 #include <cmath>
 #include <cstring>
 
+#include "memory.h"
 #include "target.h"
 
 namespace {
 
 constexpr std::size_t header = 12, pair = 16;
 constexpr std::uint64_t longest = 80'000'000; // a table over the full azimuth has 70 MB
+
+// The file's bytes, its values, and less than as much again: which cells are valid, and how holes are filled.
+constexpr std::size_t table_factor = 3;
 
 template <class T>
 std::string bytes_of(const T &value) {
@@ -40,6 +44,15 @@ void make_file(fuzz::MemoryFile &file, const uint8_t *data, std::size_t size) {
         file.put(number_at(data + at) % (length - 7), data + at + 8, 8);
 }
 
+// What the file's header declares: doubles of three channels. Of other dimensions nothing may be read.
+std::size_t declared_bytes(const uint8_t *data, std::size_t size) {
+    std::array<std::int32_t, 3> dims{};
+    if (size < header) return 0;
+    std::memcpy(dims.data(), data, header);
+    const bool is_legal = dims[0] == 90 && dims[1] == 90 && (dims[2] == 180 || dims[2] == 360);
+    return is_legal ? std::size_t{3} * 8 * 90 * 90 * static_cast<std::size_t>(dims[2]) : 0;
+}
+
 void require_sound(smx_brdf brdf) {
     smx_brdf_info info = SMX_BRDF_INFO_INIT;
     fuzz::require_ok(smx_brdf_get_info(brdf, &info), "facts about a table");
@@ -67,7 +80,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static fuzz::MemoryFile file;
     make_file(file, data, size);
     smx_brdf brdf = nullptr;
-    const smx_status status = smx_brdf_open(file.path().c_str(), &brdf);
+    smx_status status;
+    {
+        const fuzz::MemoryLimit limit(table_factor * declared_bytes(data, size) + fuzz::always_legal);
+        status = smx_brdf_open(file.path().c_str(), &brdf);
+    }
     fuzz::require_outcome(status, brdf, {SMX_BAD_FORMAT});
     if (brdf) require_sound(brdf);
     smx_brdf_release(brdf);

@@ -4,8 +4,8 @@
 //   fuzz_NAME [SECONDS]        10 by default
 //   fuzz_NAME --input FILE     one input, such as a crash that was kept
 //
-// A crash, more than a second of processor time for an input, or more memory than any input may need ends it with the
-// input in crash-NAME in the working directory.
+// A crash, more than a second of processor time for an input, or more memory than it declares (memory.h) ends it with
+// the input in crash-NAME in the working directory.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/time.h>
