@@ -25,7 +25,8 @@ bool HardStatistics::is_wrong(const HardPoint &p) const {
 }
 
 bool HardStatistics::may_be_zero(const HardPoint &p) const {
-    return p.is_signed || p.may_cancel || std::log(p.wanted / smallest_float) <= promise_.factor * (1.0 + p.condition);
+    return p.is_open || p.is_signed || p.may_cancel ||
+           std::log(p.wanted / smallest_float) <= promise_.factor * (1.0 + p.condition);
 }
 
 bool HardStatistics::count(HardPoint &p) {

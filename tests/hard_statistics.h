@@ -81,7 +81,7 @@ class HardStatistics {
     }
     // Infinity where a condition that is not finite, or a NaN, would say nothing.
     double error_ratio(const HardPoint &point) const;
-    // Whether what is not determined is so by a factor that takes it below a normal float; or by a difference.
+    // Whether what is not determined is so by a factor that takes it below a normal float, by a difference, or at all.
     bool may_be_zero(const HardPoint &point) const;
     // Whether it has a ratio, which it is given.
     bool count(HardPoint &point);

@@ -198,8 +198,8 @@ std::array<T, quantities> truth_of(const CaseOf<T> &c, const oracle::VecOf<T> &w
         for (std::size_t g = 0; g < 2; ++g)
             q[quantity_shared + 3 * g + channel] = f * sum_ndf * q[quantity_g2 + g] * quarter;
     }
-    // Without masking f cos goes like 1 / p_o, which is held at 1e-17.
-    const T held(static_cast<double>(1e-17f)), seen = p_o < held ? held : p_o, lit = q[quantity_fresnel] * sum_ndf;
+    // Without masking f cos goes like 1 / p_o, which is held at 1e-14.
+    const T held(static_cast<double>(1e-14f)), seen = p_o < held ? held : p_o, lit = q[quantity_fresnel] * sum_ndf;
     q[quantity_less] = lit / (T(4.0) * (seen + beyond * p_o / p_i));
     q[quantity_less + 1] = lit / (T(4.0) * sum_o);
     q[quantity_less + 2] = lit / (T(4.0) * seen);

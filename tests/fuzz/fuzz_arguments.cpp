@@ -16,7 +16,8 @@ using namespace slopemix::cli;
 
 namespace {
 
-constexpr std::size_t length_factor = 100; // a line of no character is a text and a result of the parser
+constexpr std::size_t parser = std::size_t{1} << 20; // a command's flags, their checks and what they say
+constexpr std::size_t length_factor = 100;           // a line of no character is a text and a result of the parser
 
 using Arguments = std::vector<std::string>;
 
@@ -191,7 +192,7 @@ std::vector<std::string> fuzz::seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Arguments arguments = lines_of(data, size);
     const bool is_command = names_command(arguments.front());
-    const fuzz::MemoryLimit limit(length_factor * size + fuzz::always_legal);
+    const fuzz::MemoryLimit limit(length_factor * size + parser);
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
     try {
         if (is_command)
