@@ -187,7 +187,9 @@ TEST(CliRender, LargeImagesAreStreamed) {
     Arguments arguments =
         test::replaced(render("filtered", dir / "conductor.json", dir / "large.exr"), "--res", std::to_string(side));
     ASSERT_CLI_OK(test::cli(arguments));
+#ifndef __SANITIZE_ADDRESS__ // which has shadows of what is used, and keeps what was
     EXPECT_LT(peak_memory_of_children(), image_bytes);
+#endif
     EXPECT_EQ(test::pixels(read(dir / "large.exr")).width, side);
 
     // A signal in the middle leaves nothing.

@@ -30,6 +30,7 @@ struct Function {
     std::function<double(double got, const Input &)> error;
     std::array<double, 3> largest; // precise, fast, double: as stated in the header
     bool ours = true;              // from a polynomial, not from the device
+    bool may_be_better = false;    // with a reciprocal that a device has no estimate for
 };
 
 double relative(double got, const Big &wanted) { return static_cast<double>(abs(Big(got) / wanted - 1.0)); }
@@ -137,7 +138,12 @@ const std::vector<Function> &functions() {
              [](double got, const Input &at) { return relative(got, exp2(Big(at.x) + 80.0)); },
              {1e-7, 8e-5, 4e-16}},
             {"half_ierfc(x)", ierfc, half_ierfc_error, {2.2e-7, 7e-5, 4e-16}},
-            {"half_ierfc_relative(x)", every_eighth(positives(9.0)), relative_ierfc_error, {6.5e-7, 2.4e-4, 8e-16}},
+            {"half_ierfc_relative(x)",
+             every_eighth(positives(9.0)),
+             relative_ierfc_error,
+             {6.5e-7, 2.4e-4, 8e-16},
+             true,
+             true},
             {"sqrt_angle_from_chord2(x)", positives(2.0), sqrt_angle_error, {2.2e-7, 2.2e-5, 4e-16}},
             {"angle_modulo_pi(y, x)", vectors(), angle_error, {9e-8, 7.6e-6, 4e-16}},
         };
@@ -202,7 +208,7 @@ void expect_stated_errors(Grade grade) {
         EXPECT_TRUE(largest <= stated) << function.call << " at x = " << where.x << ", y = " << where.y << ": error "
                                        << largest << ", stated " << stated;
         // What is stated of our polynomials is near the truth; a device's own functions may be better than they must.
-        if (grade != Grade::Double && function.ours) {
+        if (grade != Grade::Double && function.ours && !function.may_be_better) {
             EXPECT_GT(largest, stated / 2.0) << function.call;
         }
     }
