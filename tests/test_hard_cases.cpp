@@ -103,10 +103,12 @@ void check_oracle(const std::array<Wide, test::quantities> &wide, const std::arr
     }
 }
 
-// Without masking f cos goes like 1 / p_o: it comes back to a float's range where what p_o divides had left it.
-bool is_lost_over_po(const HardPair &pair, std::size_t quantity, double wanted) {
-    if (quantity != test::quantity_less && quantity != test::quantity_less + 2) return false;
-    return wanted * std::max(double{pair.wo[2]}, 1e-14) < smallest_float; // a mean slope makes p_o larger, and no case
+// Densities of drawn directions, and f cos with less than all masking, divide what the distribution of normals gives by
+// an area that may be as small as it is: they come back to a float's range where that had left it.
+bool is_lost_before_division(const std::array<Wide, test::quantities> &wide, std::size_t quantity) {
+    if (quantity < test::quantity_density) return false;
+    const Wide factor = quantity < test::quantity_less ? 1.0L : wide[test::quantity_fresnel];
+    return wide[test::quantity_ndf] * factor / 4.0L < Wide(smallest_float);
 }
 
 // Whether the condition number, a first derivative, says too little: a curve's kink within the angle's error, a
@@ -159,11 +161,11 @@ void compare(const HardCase &c, const std::vector<HardPair> &pairs, const std::v
             HardPoint point;
             point.quantity = q, point.got = got, point.wanted = wanted;
             point.condition = wanted == 0.0 ? 0.0 : dual[q].condition();
-            const bool is_lost_without_masking = is_lost_over_po(pairs[k], q, wanted);
-            point.may_cancel = test::has_steep_fresnel(q) || is_lost_without_masking;
-            point.is_open = is_lost_without_masking || ((statistics.is_wrong(point) || got == 0.0) &&
-                                                        is_open(c, truths, pairs[k], statistics.promise(), q, wanted,
-                                                                got, dual[test::quantity_theta_d]));
+            const bool is_lost_early = is_lost_before_division(wide, q);
+            point.may_cancel = test::has_steep_fresnel(q) || is_lost_early;
+            point.is_open = is_lost_early || ((statistics.is_wrong(point) || got == 0.0) &&
+                                              is_open(c, truths, pairs[k], statistics.promise(), q, wanted, got,
+                                                      dual[test::quantity_theta_d]));
             statistics.see(point, better, [&] { return cells_of(c, pairs[k]); });
         };
         for (std::size_t g = 0; g < values.size(); ++g) { // double only where the device has it
