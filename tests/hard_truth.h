@@ -55,6 +55,12 @@ struct CaseOf {
     const HardCase *of; // its curves
 };
 
+// What makes inputs: of plain numbers, and of those that carry derivatives.
+template <class T>
+inline constexpr auto constant_of = [](double value, std::size_t) { return T(value); };
+template <class Dual>
+inline constexpr auto variable_of = [](double value, std::size_t index) { return Dual::variable(value, index); };
+
 // `variable(value, number)` makes the inputs: 0..2 wi, 3..5 wo, 6..10 X, 11 all alphas together, 12 all knots together.
 // (The condition of a sum over lobes by each of their alphas and weights is larger: this one is the stricter.)
 inline constexpr std::size_t hard_variables = 13;

@@ -32,8 +32,7 @@ constexpr double smallest_float = 0x1p-126;
 constexpr std::size_t pairs_per_case = 1000;
 constexpr std::size_t report_every = 1000; // cases
 
-const auto constant = []<class T>(std::type_identity<T>) { return [](double value, std::size_t) { return T(value); }; };
-constexpr auto variable = [](double value, std::size_t index) { return Dual::variable(value, index); };
+constexpr auto variable = test::variable_of<Dual>;
 
 template <class T, class Variable>
 std::array<T, test::quantities> truth(const test::CaseOf<T> &c, const HardPair &pair, Variable make) {
@@ -47,12 +46,12 @@ struct Truths {
     test::CaseOf<Big> big;
 
     explicit Truths(const HardCase &c)
-        : wide(test::case_of<Wide>(c, constant(std::type_identity<Wide>()))),
+        : wide(test::case_of<Wide>(c, test::constant_of<Wide>)),
           dual(test::case_of<Dual>(c, variable)),
-          big(test::case_of<Big>(c, constant(std::type_identity<Big>()))) {}
+          big(test::case_of<Big>(c, test::constant_of<Big>)) {}
 
     std::array<Big, test::quantities> at_60_digits(const HardPair &pair) const {
-        return truth(big, pair, constant(std::type_identity<Big>()));
+        return truth(big, pair, test::constant_of<Big>);
     }
 };
 
@@ -143,7 +142,7 @@ void compare(const HardCase &c, const std::vector<HardPair> &pairs, const std::v
     const bool is_textbook = c.x.rho == 0.0 && c.x.mean_x == 0.0 && c.x.mean_y == 0.0;
     for (std::size_t k = first; k < pairs.size(); k += step) {
         const bool is_lost = test::is_spread_lost(c, pairs[k].wi) || test::is_spread_lost(c, pairs[k].wo);
-        const auto wide = truth(truths.wide, pairs[k], constant(std::type_identity<Wide>()));
+        const auto wide = truth(truths.wide, pairs[k], test::constant_of<Wide>);
         const auto dual = truth(truths.dual, pairs[k], variable);
         std::optional<std::array<Big, test::quantities>> big;
         const auto at_60_digits = [&]() -> const std::array<Big, test::quantities> & {

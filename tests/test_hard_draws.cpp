@@ -106,20 +106,19 @@ std::array<T, numbers> truth(const HardCase &c, const Draw &d, Variable variable
     return {m.x, m.y, m.z, wi.x, wi.y, wi.z};
 }
 
-const auto constant = []<class T>(std::type_identity<T>) { return [](double value, std::size_t) { return T(value); }; };
-constexpr auto variable = [](double value, std::size_t index) { return Dual::variable(value, index); };
+constexpr auto variable = test::variable_of<Dual>;
 
 // A view along the normal of a lobe's ellipse sees all azimuths alike: which one is drawn is not said.
 bool has_azimuth(const HardCase &c, const Draw &d) {
     const oracle::GaussianOf<Wide> x = oracle::gaussian_of<Wide>(c.x.alpha_x, c.x.alpha_y, c.x.rho, 0.0L, 0.0L);
-    const auto wo = test::direction_of<Wide>(d.wo, 0, constant(std::type_identity<Wide>()));
+    const auto wo = test::direction_of<Wide>(d.wo, 0, test::constant_of<Wide>);
     return oracle::spread2(oracle::widened_by(x, Wide(c.lobes[d.lobe].alpha)), wo) > 0x1p-120L;
 }
 
 // Whether u.x may choose a lobe of this alpha, its share's ends `error` off: by weights and, of the shared model, by
 // what wo sees.
 bool may_choose(const HardCase &c, const Draw &d, bool per_lobe, double alpha2, double error) {
-    const auto wo = test::direction_of<Wide>(d.wo, 0, constant(std::type_identity<Wide>()));
+    const auto wo = test::direction_of<Wide>(d.wo, 0, test::constant_of<Wide>);
     const oracle::GaussianOf<Wide> x =
         oracle::gaussian_of<Wide>(c.x.alpha_x, c.x.alpha_y, c.x.rho, c.x.mean_x, c.x.mean_y);
     std::vector<Wide> below{0.0L};
@@ -144,7 +143,7 @@ bool is_open(const HardCase &c, const Draw &d, const test::Promise &promise, std
     const auto at = [&](std::size_t which, double share) {
         Draw moved = d;
         moved.u[which] = static_cast<float>(moved.u[which] * (1.0 + share));
-        return truth<Wide>(c, moved, constant(std::type_identity<Wide>()))[number];
+        return truth<Wide>(c, moved, test::constant_of<Wide>)[number];
     };
     const Wide value = at(1, 0.0);
     for (const std::size_t which : {1, 2}) {
@@ -198,11 +197,11 @@ void compare(const HardCase &c, const std::vector<Draw> &draws, const std::vecto
             ++results.without_azimuth;
             continue;
         }
-        const auto wide = truth<Wide>(c, d, constant(std::type_identity<Wide>()));
+        const auto wide = truth<Wide>(c, d, test::constant_of<Wide>);
         const auto dual = truth<Dual>(c, d, variable);
         std::optional<std::array<Big, numbers>> big;
         const auto at_60_digits = [&](std::size_t q) {
-            if (!big) big = truth<Big>(c, d, constant(std::type_identity<Big>()));
+            if (!big) big = truth<Big>(c, d, test::constant_of<Big>);
             return static_cast<double>((*big)[q]);
         };
         if (static_cast<double>(results.oracle_checked) <
